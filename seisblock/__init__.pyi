@@ -2,11 +2,9 @@
 
 from . import bodies, criteria, errors, fragility, measures, models, readers, records, samples, studies, survey, uncertainty, units
 from .bodies.block import Block
-from .bodies.cemetery.cemetery import Cemetery
 from .bodies.cemetery.table import read_cemetery
-from .bodies.edge_wear import EdgeWear
+from .bodies.convex import ConvexBody
 from .bodies.factory import load_block
-from .bodies.pile.contact import PileContact
 from .bodies.pile.pile import Pile
 from .bodies.pile.stone import PileStone
 from .bodies.pile.toml import load_pile
@@ -21,6 +19,7 @@ from .models.jump.options import JumpOptions
 from .models.jump.solve import solve_jump
 from .models.respond.options import RespondOptions
 from .models.respond.solve import solve_respond
+from .models.rigid3d.solve import solve_rigid3d
 from .models.rock.options import RockOptions
 from .models.rock.solve import solve_rock
 from .models.slide.options import SlideOptions
@@ -33,18 +32,20 @@ from .readers.read import read
 from .records.analytic import half_sine_motion, pulse_motion, rectangle_motion, sine_motion
 from .records.motion import Motion, motion_of
 from .records.record import Record
+from .studies.assessment import Assessment, assess
 from .studies.batch.run import run_batch
 
 __version__: str
 
 __all__ = [
+    "assess",
+    "Assessment",
     "Block",
     "bodies",
-    "Cemetery",
     "Channel",
     "Contact",
+    "ConvexBody",
     "criteria",
-    "EdgeWear",
     "errors",
     "Event",
     "fragility",
@@ -66,7 +67,6 @@ __all__ = [
     "motion_of",
     "Phase",
     "Pile",
-    "PileContact",
     "PileStone",
     "read",
     "read_cemetery",
@@ -83,6 +83,7 @@ __all__ = [
     "SlidingBase",
     "solve_jump",
     "solve_respond",
+    "solve_rigid3d",
     "solve_rock",
     "solve_slide",
     "solve_stack",

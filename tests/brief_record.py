@@ -1,4 +1,4 @@
-"""The bundled record cut to the seconds that matter, for tests in which its length is not the point."""
+"""The bundled record cut to its strong motion, for tests that do not depend on its length."""
 
 from seisblock.samples import sample_path
 
@@ -8,7 +8,7 @@ SHAKING_S = 22, 29
 
 
 def brief_record() -> bytes:
-    """Return the file of the bundled record with these seconds alone, in the layout of JMA as it is."""
+    """Return the file of the bundled record, JMA layout, cut to these seconds."""
     lines = sample_path("synthetic_jma.csv").read_bytes().splitlines(keepends=True)
     begin, end = (HEADER_LINES + RATE_HZ * second for second in SHAKING_S)
     return b"".join(lines[:HEADER_LINES] + lines[begin:end])

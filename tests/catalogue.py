@@ -1,7 +1,7 @@
-"""The catalogues of translations: what the source says, gathered by babel, beside what they hold.
+"""Catalogues of translations: extraction of messages from the source by babel, and update of the ``.po`` files.
 
-``python tests/catalogue.py`` brings them up to date: it adds what is new, without a translation, drops what is no longer said, and lists
-what waits for a translator.
+``python -m tests.catalogue`` brings them up to date: new messages are added without a translation, removed ones dropped, and untranslated
+ones listed.
 """
 
 import ast
@@ -27,7 +27,7 @@ from seisblock.validation import cases
 PACKAGE = Path(seisblock.__file__).parent
 GETTEXT_FUNCTIONS = {"lazy_gettext", "gettext", "N_", "info", "warning", "always", "progress", "set_task", "error", "line_error", "qc_flag"}
 CHECK_FUNCTIONS = {"finite", "positive", "non_negative", "in_interval", "fraction", "function", "float_array", "float_vector", "integer"}
-"""Functions whose first argument is a text for people; so is that of every error of ours, and of every check of a number."""
+"""Functions whose first argument is a message; so is that of the error classes of the package and of the checks of numbers."""
 
 CLICK_MESSAGES = (
     "Error: {message}",
@@ -64,7 +64,7 @@ CLICK_MESSAGES = (
     "{value!r} is not {choice}.",
     "Option {name!r} requires an argument.",
 )
-"""What click says to users of ours; it asks gettext, by the first of two forms where it counts."""
+"""Messages of click, which it passes to gettext; the singular where there are two forms."""
 
 PLURALS = {
     "Got unexpected extra argument ({args})": "Got unexpected extra arguments ({args})",
@@ -73,24 +73,24 @@ PLURALS = {
     "{value!r} is not {choice}.": "{value!r} is not one of {choices}.",
     "Option {name!r} requires an argument.": "Option {name!r} requires {nargs} arguments.",
 }
-"""The second."""
+"""Plural forms of these messages."""
 
 WIDTH = 120
 
 
 def extract_messages(stream, keywords, comment_tags, options) -> Iterator[tuple[int, str, str, list[str]]]:
-    """Yield what a Python file says, as a method of babel's: calls inside calls, texts over several lines or put in a name before."""
+    """Yield the messages of a Python file as a method of babel, with nested calls, multi-line texts and texts assigned to a name before."""
     tree = ast.parse(stream.read())
-    named = [node for node in ast.walk(tree) if isinstance(node, ast.Assign)]
+    assignments = [node for node in ast.walk(tree) if isinstance(node, ast.Assign)]
     for node, argument in message_calls(tree):
         if isinstance(argument, ast.Name):
-            put = [each.value for each in named if argument.id in (getattr(target, "id", "") for target in each.targets)]
-            yield from ((node.lineno, "", text, []) for value in put for text in message_literals(value))
+            values = [a.value for a in assignments if argument.id in (getattr(target, "id", "") for target in a.targets)]
+            yield from ((node.lineno, "", text, []) for value in values for text in message_literals(value))
         yield from ((node.lineno, "", text, []) for text in message_literals(argument))
 
 
 def message_calls(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
-    """Yield the calls that say something, and what they say."""
+    """Yield the calls that take a message, and the argument with it."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and node.args:
             name = getattr(node.func, "attr", getattr(node.func, "id", ""))
@@ -101,7 +101,7 @@ def message_calls(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
 
 
 def message_literals(node: ast.expr) -> Iterator[str]:
-    """Yield the texts that an argument may be: one, either branch of a choice, or the members of a row."""
+    """Yield the possible texts of an argument: a literal, both branches of a conditional, or the items of a tuple."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value:
         yield node.value
     elif isinstance(node, ast.IfExp):
@@ -113,50 +113,50 @@ def message_literals(node: ast.expr) -> Iterator[str]:
 
 
 def source_messages() -> dict[str, str]:
-    """Return every text of the package: template and the place where it stands first."""
-    found: dict[str, str] = {}
+    """Return every message of the package with its first occurrence."""
+    messages: dict[str, str] = {}
     methods = [("**.py", extract_messages), ("**/templates/**.html", "jinja2")]
     # babel's own filter leaves out a folder whose name begins with _
-    found_in = extract_from_dir(
+    extracted = extract_from_dir(
         PACKAGE, methods, keywords={"gettext": None}, directory_filter=lambda folder: Path(folder).name != "__pycache__"
     )
-    for name, _, text, _, _ in found_in:
+    for name, _, text, _, _ in extracted:
         if isinstance(text, str) and re.search(r"\w", text):
-            found.setdefault(text, name)
-    return found
+            messages.setdefault(text, name)
+    return messages
 
 
 def help_messages() -> dict[str, str]:
-    """Return every text of ``--help``: lines and paragraphs of commands, of their arguments and of their options."""
-    found: dict[str, str] = {}
+    """Return every text of ``--help`` with its command: summary lines and paragraphs of commands, arguments and options."""
+    messages: dict[str, str] = {}
     context = click.Context(main)
     for name in ("", *COMMANDS):
         command = main.get_command(context, name) if name else main
         texts = [*paragraphs(command.help or ""), *((COMMANDS[name],) if name else ())]
-        texts += [each.help for each in command.params if getattr(each, "help", None)]
-        found |= {text: f"help of seisblock {name}".strip() for text in texts if text and text not in found}
-    return found
+        texts += [parameter.help for parameter in command.params if getattr(parameter, "help", None)]
+        messages |= {text: f"help of seisblock {name}".strip() for text in texts if text and text not in messages}
+    return messages
 
 
 def sample_messages() -> dict[str, str]:
-    """Return what the bundled files call themselves and their parts, and how the list of samples describes them."""
-    found = {sample.description: sample.name for sample in list_samples()}
+    """Return names, descriptions, terms and origins of the bundled files, and names of their parts."""
+    messages = {text: sample.name for sample in list_samples() for text in (sample.description, sample.licence, sample.origin)}
     for path in sorted(sample_directory().glob("*.toml")):
         table = tomllib.loads(path.read_text(encoding="utf-8"))
         parts = [table, *table.get("stone", ()), *table.get("stones", ())]
-        found |= {part["name"]: path.name for part in parts if "name" in part}
+        messages |= {part["name"]: path.name for part in parts if "name" in part}
     cemeteries = [sample.name for sample in list_samples() if sample.kind == "cemetery"]
-    found |= {read_cemetery(name).notes[0]: name for name in cemeteries}
-    return found | dict.fromkeys((sample.kind for sample in list_samples()), "MANIFEST.toml")
+    messages |= {read_cemetery(name).notes[0]: name for name in cemeteries}
+    return messages | dict.fromkeys((sample.kind for sample in list_samples()), "MANIFEST.toml")
 
 
 def validation_messages() -> dict[str, str]:
-    """Return what the cases of validation compare, and the notes on them."""
+    """Return quantities and notes of the validation cases."""
     return {text: f"validation of {case.paper}" for case in cases() for text in (case.quantity, case.note) if text}
 
 
 def all_messages() -> dict[str, str]:
-    """Return every text that a catalogue holds: template and the place where it stands first."""
+    """Return every message of a catalogue with its first occurrence."""
     return dict.fromkeys(CLICK_MESSAGES, "click") | validation_messages() | source_messages() | help_messages() | sample_messages()
 
 
@@ -166,18 +166,18 @@ def catalogue_path(language: str) -> Path:
 
 
 def read_catalogue(language: str) -> Catalog:
-    """Return a catalogue as it is written."""
+    """Return the catalogue of a language."""
     with catalogue_path(language).open("rb") as stream:
         return read_po(stream, locale=language)
 
 
 def refresh(language: str) -> list[str]:
-    """Bring a catalogue up to date; return what has no translation."""
-    held, path = read_catalogue(language), catalogue_path(language)
-    fresh = Catalog(locale=language, project="seisblock", charset="utf-8", fuzzy=False, header_comment=held.header_comment)
+    """Bring a catalogue up to date; return the messages without a translation."""
+    old, path = read_catalogue(language), catalogue_path(language)
+    fresh = Catalog(locale=language, project="seisblock", charset="utf-8", fuzzy=False, header_comment=old.header_comment)
     for text, place in sorted(all_messages().items(), key=lambda pair: (pair[1], pair[0])):
-        known = held.get(text)
-        fresh.add((text, PLURALS[text]) if text in PLURALS else text, known.string if known else "", auto_comments=[place])
+        entry = old.get(text)
+        fresh.add((text, PLURALS[text]) if text in PLURALS else text, entry.string if entry else "", auto_comments=[place])
     with path.open("wb") as stream:
         write_po(stream, fresh, width=WIDTH, omit_header=False, ignore_obsolete=True)
     text = re.sub(
@@ -196,6 +196,6 @@ def message_key(message) -> str:
 
 
 if __name__ == "__main__":
-    for spoken in LANGUAGES[1:]:
-        waiting = refresh(spoken)
-        print(f"{spoken}: {len(waiting)} texts without a translation", *waiting, sep="\n  ")
+    for language in LANGUAGES[1:]:
+        untranslated = refresh(language)
+        print(f"{language}: {len(untranslated)} texts without a translation", *untranslated, sep="\n  ")

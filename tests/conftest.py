@@ -1,4 +1,4 @@
-"""What every test shares: an English locale, a terminal of 80 columns, and the evidence, which is computed once in a session."""
+"""Shared by all tests: English locale, terminal of 80 columns, validation cases computed once in a session."""
 
 import contextlib
 import dataclasses
@@ -35,7 +35,7 @@ if os.environ.get("CI"):
 
 
 def pytest_addoption(parser):
-    """Say how long the fuzz shall be: a moment in continuous integration, hours at a developer's desk."""
+    """Set the duration of fuzzing: short in continuous integration, long on request."""
     parser.addoption("--fuzz", type=int, default=1, help="how many times its usual length the fuzz is (default 1: about a minute in all)")
     parser.addoption("--fuzz-from", type=int, default=0, help="the seed of its first accident (default 0)")
 
@@ -52,21 +52,21 @@ def pytest_configure(config):
 
 
 WHOLE_RUN = 1000
-"""Tests from which on every kernel is wanted."""
+"""Number of tests above which all kernels are compiled first."""
 
 MOST_S = 300.0
-"""How long a worker waits for the others, s."""
+"""Time limit of a worker's wait for the others, s."""
 
 
 @functools.cache
 def cases_by_key() -> dict[str, list[Case]]:
-    """Return the cases of the papers by their keys: those themselves, not what a test makes of them."""
+    """Return the cases of the papers by their keys."""
     from seisblock.validation import cases
 
-    found: dict[str, list[Case]] = {}
+    mapping: dict[str, list[Case]] = {}
     for case in cases():
-        found.setdefault(case.key, []).append(case)
-    return found
+        mapping.setdefault(case.key, []).append(case)
+    return mapping
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -98,16 +98,16 @@ def evidence(tmp_path_factory):
     run = Case.run
 
     def run_once(case: Case) -> CaseResult:
-        if not any(case is known for known in cases_by_key().get(case.key, ())):
+        if not any(case is reference for reference in cases_by_key().get(case.key, ())):
             return run(case)
-        kept = folder / f"{case.key}.json"
+        remaining = folder / f"{case.key}.json"
         with contextlib.suppress(FileNotFoundError):
-            expected, computed = json.loads(kept.read_text(encoding="ascii"))
+            expected, computed = json.loads(remaining.read_text(encoding="ascii"))
             return dataclasses.replace(run(dataclasses.replace(case, expected=expected, compute=lambda: computed)), case=case)
         result = run(case)
         fresh = folder / f"{case.key}.{os.getpid()}"
         fresh.write_text(json.dumps([result.expected, result.computed]), encoding="ascii")
-        fresh.replace(kept)
+        fresh.replace(remaining)
         return result
 
     with pytest.MonkeyPatch.context() as patch:

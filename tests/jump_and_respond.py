@@ -52,14 +52,14 @@ STEPS = (
 def rows():
     """Return the table's rows, numbers as printed."""
     record = read("synthetic_jma.csv")
-    found = []
+    collected = []
     for name, run in STEPS:
         for component in ("NS", "EW"):
             start, lean, air, slid, end = run(motion_of(record, component))
-            told = "-" if start is None else f"{start:.3f}"
+            message = "-" if start is None else f"{start:.3f}"
             numbers = (f"{57.29577951308232 * lean:.2f}", f"{air:.2f}", f"{100.0 * slid:.1f}", f"{round(100.0 * end, 1) + 0.0:+.1f}")
-            found.append((name, component, told, *numbers))
-    return found
+            collected.append((name, component, message, *numbers))
+    return collected
 
 
 def table():

@@ -6,7 +6,8 @@ import pkgutil
 from seisblock._jit import LazyKernel
 
 KERNEL_PACKAGES = ("seisblock.dynamics", "seisblock.models.respond", "seisblock.models.jump", "seisblock.models.stack")
-KERNEL_PACKAGES += ("seisblock.models.slide", "seisblock.models.rock", "seisblock.models.uplift", "seisblock.measures", "seisblock.records")
+KERNEL_PACKAGES += ("seisblock.models.rigid3d", "seisblock.models.slide", "seisblock.models.rock", "seisblock.models.uplift")
+KERNEL_PACKAGES += ("seisblock.measures", "seisblock.records")
 """Packages with kernels, in an order that gives two workers equal shares."""
 
 
@@ -27,9 +28,9 @@ def compile_all(*, share: int = 0, of: int = 1) -> None:
     """Compile each kernel that no other kernel calls, or one share of so many, into the cache; cached ones are loaded."""
     for name in KERNEL_PACKAGES[share::of]:
         kernels = all_kernels(name)
-        called = set().union(*map(callees, kernels))
+        calls = set().union(*map(callees, kernels))
         for kernel in kernels:
-            if id(kernel) not in called:
+            if id(kernel) not in calls:
                 _ = kernel.compiled
 
 

@@ -1,4 +1,4 @@
-"""Which of a test's parameters are worth their seconds in every run; the others wait for ``-m slow``."""
+"""Slow parameters of a test, left to ``-m slow``."""
 
 from collections.abc import Iterable, Set
 

@@ -81,10 +81,10 @@ def main() -> None:
     }
     before = path.read_text(encoding="utf-8")
     text = manifest({NAME: (data, about)}, before)
-    kept = [entry["name"] for entry in tomllib.loads(before)["sample"] if entry["name"] != NAME]
+    remaining = [entry["name"] for entry in tomllib.loads(before)["sample"] if entry["name"] != NAME]
     head, *entries = text.split("\n[[sample]]\n")
-    named = {tomllib.loads(entry)["name"]: entry for entry in entries}
-    ordered = [named[name].rstrip("\n") + "\n" for name in (*kept, NAME)]
+    mapping = {tomllib.loads(entry)["name"]: entry for entry in entries}
+    ordered = [mapping[name].rstrip("\n") + "\n" for name in (*remaining, NAME)]
     path.write_text("\n[[sample]]\n".join([head, *ordered]), encoding="utf-8")
     print(f"{NAME}: {hashlib.sha256(data).hexdigest()}")
 

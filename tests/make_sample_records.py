@@ -51,9 +51,9 @@ def stretches() -> dict[str, list[Stretch]]:
 def synthetic() -> dict[str, Array]:
     """Return the synthetic ground acceleration of each component, m/s^2, 60 s at 100 Hz."""
     motion = {}
-    for code, held in stretches().items():
+    for code, holding in stretches().items():
         shape = (envelope(1.1, 1.3), correlation(0.8, 14.0)) if code == "UD" else (envelope(0.35, 1.4), correlation(0.3, 8.0))
-        motion[code] = conditioned_motion(np.random.default_rng(SEEDS[code]), *shape, held)
+        motion[code] = conditioned_motion(np.random.default_rng(SEEDS[code]), *shape, holding)
     motion["UD"] *= UD_PGA / np.abs(motion["UD"]).max()
     return motion
 
@@ -162,14 +162,16 @@ def make() -> dict[str, tuple[bytes, dict[str, object]]]:
     return result
 
 
-def manifest(made: dict[str, tuple[bytes, dict[str, object]]], before: str) -> str:
+def manifest(created: dict[str, tuple[bytes, dict[str, object]]], before: str) -> str:
     """Return the manifest: the files made here first, then the entries of others as they were, their digests made anew."""
-    kept = [e for e in tomllib.loads(before).get("sample", []) if e["name"] not in made] if before else []
-    for entry in kept:
+    remaining = [e for e in tomllib.loads(before).get("sample", []) if e["name"] not in created] if before else []
+    for entry in remaining:
         entry["sha256"] = hashlib.sha256((SAMPLES_DIRECTORY / entry["name"]).read_bytes()).hexdigest()
-    entries = [{"name": n, **about, "sha256": hashlib.sha256(data).hexdigest()} for n, (data, about) in made.items()]
+    entries = [{"name": n, **about, "sha256": hashlib.sha256(data).hexdigest()} for n, (data, about) in created.items()]
     head = "# Made by tests/make_sample_records.py, which keeps the entries of others. pga_gal is max|a|, for K-NET max|a - mean|.\n"
-    return head + "".join("\n[[sample]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in e.items()) for e in [*entries, *kept])
+    return head + "".join(
+        "\n[[sample]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in e.items()) for e in [*entries, *remaining]
+    )
 
 
 def _toml(value: object) -> str:
@@ -181,12 +183,12 @@ def _toml(value: object) -> str:
 
 def main() -> None:
     """Write the files and the manifest."""
-    made = make()
+    created = make()
     SAMPLES_DIRECTORY.mkdir(exist_ok=True)
-    for name, (data, _) in made.items():
+    for name, (data, _) in created.items():
         (SAMPLES_DIRECTORY / name).write_bytes(data)
     path = SAMPLES_DIRECTORY / "MANIFEST.toml"
-    path.write_text(manifest(made, path.read_text(encoding="utf-8") if path.exists() else ""), encoding="utf-8")
+    path.write_text(manifest(created, path.read_text(encoding="utf-8") if path.exists() else ""), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -40,9 +40,9 @@ def samples(frequency: float) -> np.ndarray:
     return np.round(np.sin(2.0 * math.pi * np.arange(count + 1) / count), 5)
 
 
-def version_falls(motion: Motion, scale: float, dice: np.random.Generator) -> bool:
+def version_falls(motion: Motion, scale: float, rng: np.random.Generator) -> bool:
     """Return what a version of the block does that differs a little from the others."""
-    size, slenderness, bounce, amplitude = 1.0 + SCATTER * dice.uniform(-1.0, 1.0, 4)
+    size, slenderness, bounce, amplitude = 1.0 + SCATTER * rng.uniform(-1.0, 1.0, 4)
     version = scale_block(from_slenderness(ALPHA, P), size=size, slenderness=slenderness)
     return rock_verdict(
         version, motion, scale=scale * amplitude, options=RockOptions(restitution=min(version.restitution * bounce, 1.0))
@@ -51,9 +51,9 @@ def version_falls(motion: Motion, scale: float, dice: np.random.Generator) -> bo
 
 def make() -> tuple[bytes, bytes]:
     """Return the bundle of the pulses and the table of outcomes."""
-    dice = np.random.default_rng(SEED)
-    held, rows = io.BytesIO(), []
-    with zipfile.ZipFile(held, "w", zipfile.ZIP_DEFLATED) as bundle:
+    rng = np.random.default_rng(SEED)
+    holding, rows = io.BytesIO(), []
+    with zipfile.ZipFile(holding, "w", zipfile.ZIP_DEFLATED) as bundle:
         for number, frequency in enumerate(FREQUENCIES, start=1):
             pulse = samples(frequency)
             name = f"pulse_{number:02d}.csv"
@@ -62,8 +62,8 @@ def make() -> tuple[bytes, bytes]:
             bundle.writestr(zipfile.ZipInfo(name, EPOCH), text, zipfile.ZIP_DEFLATED)
             motion = Motion.from_arrays(pulse, DT)
             for strength in STRENGTHS:
-                scale = round(float(strength * np.exp(dice.uniform(-0.223, 0.223))), 2)
-                rows.append((f"{PULSES}/{name}", scale, int(version_falls(motion, scale, dice))))
+                scale = round(float(strength * np.exp(rng.uniform(-0.223, 0.223))), 2)
+                rows.append((f"{PULSES}/{name}", scale, int(version_falls(motion, scale, rng))))
     head = (
         "# A shaking-table experiment that never took place: 12 pulses of 1 m/s^2, each at five strengths (scale). SYNTHETIC.\n"
         f"# The truth: a rectangular block of alpha {ALPHA} rad and p {P} rad/s ({2 * _side(0):.3f} m wide, {2 * _side(1):.3f} m high),\n"
@@ -71,13 +71,13 @@ def make() -> tuple[bytes, bytes]:
         f"# {100 * SCATTER:g} % from run to run. Made by tests/make_shaken_block.py.\n"
     )
     table = head + "record,scale,fell\n" + "".join(f"{record},{scale:.2f},{outcome}\n" for record, scale, outcome in rows)
-    return held.getvalue(), table.encode()
+    return holding.getvalue(), table.encode()
 
 
-def _side(which: int) -> float:
+def _side(kind: int) -> float:
     """Return half the width (0) or half the height (1) of the true block, m."""
     block = from_slenderness(ALPHA, P)
-    return (block.width, block.height)[which] / 2
+    return (block.width, block.height)[kind] / 2
 
 
 def main() -> None:
@@ -95,11 +95,11 @@ def main() -> None:
     before = path.read_text(encoding="utf-8")
     for name, (data, _) in about.items():
         (sample_directory() / name).write_bytes(data)
-    text = manifest({name: (data, {**told, **common}) for name, (data, told) in about.items()}, before)
-    kept = [entry["name"] for entry in tomllib.loads(before)["sample"] if entry["name"] not in about]
+    text = manifest({name: (data, {**message, **common}) for name, (data, message) in about.items()}, before)
+    remaining = [entry["name"] for entry in tomllib.loads(before)["sample"] if entry["name"] not in about]
     head, *entries = text.split("\n[[sample]]\n")
-    named = {tomllib.loads(entry)["name"]: entry for entry in entries}
-    path.write_text("\n[[sample]]\n".join([head, *(named[name].rstrip("\n") + "\n" for name in (*kept, *about))]), encoding="utf-8")
+    mapping = {tomllib.loads(entry)["name"]: entry for entry in entries}
+    path.write_text("\n[[sample]]\n".join([head, *(mapping[name].rstrip("\n") + "\n" for name in (*remaining, *about))]), encoding="utf-8")
     for name, (data, _) in about.items():
         print(f"{name}: {len(data)} bytes, {hashlib.sha256(data).hexdigest()}")
 

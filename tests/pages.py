@@ -1,11 +1,11 @@
-"""What a page shows is what the program says: the lines of README.md and of docs/, run from top to bottom in an empty folder.
+"""Code blocks of README.md and of docs/, executed from top to bottom in an empty folder and compared with the shown output.
 
-``console``  lines after ``$`` are commands of the program; what follows is what they print, at 80 columns, a line ``...`` any lines
-``python``   lines after ``>>>`` and what they answer; names last to the end of the page
-``sh``       shown only, for files that the reader has; commands and options have to exist
+``console``  lines after ``$`` are commands of the program, followed by their output at 80 columns; a line ``...`` matches any lines
+``python``   a doctest session; names last to the end of the page
+``sh``       not executed, as the files are the reader's; commands and options have to exist
 
-A figure that a line writes and the page shows from a folder ``figures/`` was drawn by that line.
-``python -m tests.refresh_pages [PAGE]...`` writes down anew what lines print and draw.
+A figure that a page shows from a folder ``figures/`` is drawn by a line of that page.
+``python -m tests.refresh_pages [PAGE]...`` updates outputs and figures.
 """
 
 import contextlib
@@ -25,21 +25,21 @@ from seisblock.cli import main
 ROOT = Path(__file__).parents[1]
 PAGES = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))}
 FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.M | re.S)
-SHOWN = re.compile(r"!\[[^\]]*\]\(([^)]*figures/[\w.]+\.png)\)")
+FIGURE_LINK = re.compile(r"!\[[^\]]*\]\(([^)]*figures/[\w.]+\.png)\)")
 ANYTHING = "..."
 GRID, COLOURS = 48, 64
-"""A figure is compared by the brightness of so many tiles by as many, and kept in so many colours."""
+"""Tiles along each side for the comparison of figures by brightness, and number of colours of a stored figure."""
 
 SAME_BRIGHTNESS = 0.02
-"""Most that the tiles of a figure may differ in the mean, for it is drawn with other fonts elsewhere; in another language it is as much."""
+"""Largest mean difference of the tiles of a figure: fonts differ between machines; another language differs as much."""
 
 
 @dataclass(frozen=True)
 class Line:
-    """A command of a page, and what the page says that it prints."""
+    """Command of a page and its shown output."""
 
     command: str
-    shown: str
+    output: str
 
 
 def lines_of(block: str) -> list[Line]:
@@ -54,7 +54,7 @@ def trim_lines(text: str) -> str:
 
 
 def run_command(command: str) -> str:
-    """Return what a command prints; with ``> FILE`` it goes there."""
+    """Return the output of a command; empty with ``> FILE``, which is written."""
     words, _, into = command.partition(" > ")
     program, *arguments = shlex.split(words)
     assert program == "seisblock", command
@@ -66,37 +66,38 @@ def run_command(command: str) -> str:
     return trim_lines(result.stdout)
 
 
-def matches(shown: str, said: str) -> bool:
-    """Tell whether what a page shows is what a command says."""
-    parts = [re.escape(line) if line != ANYTHING else "(?:.*\n)*?.*" for line in shown.split("\n")]
-    return re.fullmatch("\n".join(parts), said) is not None
+def matches(pattern: str, output: str) -> bool:
+    """Return whether the output shown by a page, with ``...`` for any lines, is that of the command."""
+    parts = [re.escape(line) if line != ANYTHING else "(?:.*\n)*?.*" for line in pattern.split("\n")]
+    return re.fullmatch("\n".join(parts), output) is not None
 
 
 def run_session(block: str, names: dict[str, object]) -> list[tuple[doctest.Example, str]]:
-    """Run a Python session; return its examples with what they answer, and keep their names."""
-    said: list[tuple[doctest.Example, str]] = []
+    """Run a Python session in a namespace; return its examples with their outputs."""
+    outputs: list[tuple[doctest.Example, str]] = []
     for example in doctest.DocTestParser().get_examples(block):
-        with contextlib.redirect_stdout(io.StringIO()) as told:
+        with contextlib.redirect_stdout(io.StringIO()) as stream:
             exec(compile(example.source, "<page>", "single"), names)
-        said.append((example, told.getvalue()))
-    return said
+        outputs.append((example, stream.getvalue()))
+    return outputs
 
 
 def page_differences(page: Path) -> list[str]:
-    """Run a page in the folder in which one stands; return where it says other than the program."""
-    found: list[str] = []
+    """Run a page in the current folder; return the commands whose output differs from the shown one."""
+    differences: list[str] = []
     names: dict[str, object] = {}
     for language, block in FENCED.findall(page.read_text(encoding="utf-8")):
         if language == "console":
-            found += [f"$ {line.command}\n{said}" for line in lines_of(block) if not matches(line.shown, said := run_command(line.command))]
+            pairs = [(line, run_command(line.command)) for line in lines_of(block)]
+            differences += [f"$ {line.command}\n{output}" for line, output in pairs if not matches(line.output, output)]
         if language == "python":
-            found += [f">>> {each.source}{said}" for each, said in run_session(block, names) if said != each.want]
-    return found
+            differences += [f">>> {example.source}{output}" for example, output in run_session(block, names) if output != example.want]
+    return differences
 
 
 def figures_of(page: Path) -> list[Path]:
     """Return the figures that a page shows."""
-    return [page.parent / link for link in SHOWN.findall(page.read_text(encoding="utf-8"))]
+    return [page.parent / link for link in FIGURE_LINK.findall(page.read_text(encoding="utf-8"))]
 
 
 def tiles(figure: Path) -> np.ndarray:
@@ -106,13 +107,13 @@ def tiles(figure: Path) -> np.ndarray:
 
 
 def changed_figures(page: Path, folder: Path) -> list[str]:
-    """Return the figures of a page that no line has drawn in a folder, or that look otherwise there."""
+    """Return the figures of a page that are missing in a folder of new figures, or differ from them."""
     pairs = [(figure, folder / figure.name) for figure in figures_of(page) if figure.parent.parent == page.parent]
-    return [figure.name for figure, made in pairs if not made.exists() or np.abs(tiles(figure) - tiles(made)).mean() > SAME_BRIGHTNESS]
+    return [figure.name for figure, new in pairs if not new.exists() or np.abs(tiles(figure) - tiles(new)).mean() > SAME_BRIGHTNESS]
 
 
-def save_figure(made: Path, kept: Path) -> None:
-    """Keep a figure that a line has drawn, in few colours."""
-    kept.parent.mkdir(exist_ok=True)
-    with Image.open(made) as image:
-        image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).save(kept, optimize=True)
+def save_figure(source: Path, target: Path) -> None:
+    """Copy a figure with a reduced number of colours."""
+    target.parent.mkdir(exist_ok=True)
+    with Image.open(source) as image:
+        image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)

@@ -1,4 +1,4 @@
-"""Real records out of installed packages: none of them may be committed."""
+"""Real records from installed packages; must not be committed."""
 
 import re
 from pathlib import Path

@@ -13,27 +13,27 @@ EPICENTRE = (37.288, 138.870)
 
 
 def station_files(number: int, *, samples: int = 1200, place: tuple[float, float] | None = None, **header: str) -> dict[str, bytes]:
-    """Return the three files of one station, the further the weaker; `place` is latitude and longitude."""
-    dice = np.random.default_rng(number)
-    north, east = place or (EPICENTRE[0] + dice.uniform(-1, 1), EPICENTRE[1] + dice.uniform(-1, 1))
+    """Return the three files of one station, weaker with distance; `place` is latitude and longitude."""
+    rng = np.random.default_rng(number)
+    north, east = place or (EPICENTRE[0] + rng.uniform(-1, 1), EPICENTRE[1] + rng.uniform(-1, 1))
     away = np.hypot(111.0 * (north - EPICENTRE[0]), 88.0 * (east - EPICENTRE[1]))
     t = 0.01 * np.arange(samples)
     code = f"SY{chr(65 + number // 1000)}{number % 1000:03d}"
     files = {}
     for direction, name in (("N-S", "NS"), ("E-W", "EW"), ("U-D", "UD")):
-        row = np.exp(-(((t - 0.4 * t[-1]) / 2.0) ** 2)) * np.convolve(dice.standard_normal(samples), np.hanning(25), "same")
+        row = np.exp(-(((t - 0.4 * t[-1]) / 2.0) ** 2)) * np.convolve(rng.standard_normal(samples), np.hanning(25), "same")
         row *= (900.0 * np.exp(-away / 35.0) + 5.0) * (0.5 if name == "UD" else 1.0) / np.abs(row).max()
-        where = {"Station Lat.": f"{north:.4f}", "Station Long.": f"{east:.4f}"}
-        text = knet([int(gal * 1577) + 1000 for gal in row], direction=direction, station=code, **{**where, **header})
+        position = {"Station Lat.": f"{north:.4f}", "Station Long.": f"{east:.4f}"}
+        text = knet([int(gal * 1577) + 1000 for gal in row], direction=direction, station=code, **{**position, **header})
         files[f"{code}0410231756.{name}"] = text.encode()
     return files
 
 
 def bundle(path: Path, count: int, *, damaged: tuple[int, ...] = (), samples: int = 1200) -> Path:
-    """Write a bundle of so many stations, some of them cut in half; return its path."""
+    """Write a bundle of stations, some with truncated files; return its path."""
     files: dict[str, bytes] = {}
     for number in range(count):
-        mine = station_files(number, samples=samples)
-        files |= {name: data[: len(data) // 2] for name, data in mine.items()} if number in damaged else mine
+        computed = station_files(number, samples=samples)
+        files |= {name: data[: len(data) // 2] for name, data in computed.items()} if number in damaged else computed
     path.write_bytes(tar(files, mode="w:gz"))
     return path

@@ -51,18 +51,18 @@ def conditioned_motion(rng: np.random.Generator, sigma: Array, r: Array, stretch
     n = 16 * SAMPLES
     spectrum = np.sqrt(np.maximum(np.fft.rfft(np.concatenate((r, np.zeros(n - 2 * SAMPLES + 1), r[:0:-1]))).real, 0.0))
     prior = sigma * np.fft.irfft(np.fft.rfft(rng.standard_normal(n)) * spectrum, n)[:SAMPLES]
-    held = np.concatenate([s.first + np.arange(s.values.size) for s in stretches] or [np.zeros(0, dtype=int)]).astype(int)
-    wanted = np.concatenate([s.values for s in stretches] or [np.zeros(0)])
+    holding = np.concatenate([s.first + np.arange(s.values.size) for s in stretches] or [np.zeros(0, dtype=int)]).astype(int)
+    expected = np.concatenate([s.values for s in stretches] or [np.zeros(0)])
     t = DT * np.arange(SAMPLES)
     moments = np.stack((np.full(SAMPLES, DT), DT * (t[-1] - t)))  # final velocity, final displacement
-    lag = np.abs(np.arange(SAMPLES)[:, None] - held[None, :])
+    lag = np.abs(np.arange(SAMPLES)[:, None] - holding[None, :])
     smoothed = np.fft.irfft(np.fft.rfft(sigma * moments, n) * spectrum**2, n)[:, :SAMPLES]  # r as a circulant matrix, applied
-    cross = np.concatenate((sigma[:, None] * r[lag] * sigma[None, held], (sigma * smoothed).T), axis=1)
-    observed = np.concatenate((cross[held], moments @ cross))
-    observed[np.diag_indices_from(observed)] += np.concatenate((np.full(held.size, 1e-8), (1e-10, 1e-10)))
-    residual = np.concatenate((wanted, (0.0, 0.0))) - np.concatenate((prior[held], moments @ prior))
+    cross = np.concatenate((sigma[:, None] * r[lag] * sigma[None, holding], (sigma * smoothed).T), axis=1)
+    observed = np.concatenate((cross[holding], moments @ cross))
+    observed[np.diag_indices_from(observed)] += np.concatenate((np.full(holding.size, 1e-8), (1e-10, 1e-10)))
+    residual = np.concatenate((expected, (0.0, 0.0))) - np.concatenate((prior[holding], moments @ prior))
     motion = prior + cross @ np.linalg.solve(observed, residual)
-    motion[held] = wanted
+    motion[holding] = expected
     return np.asarray(motion)
 
 

@@ -1,4 +1,4 @@
-"""What a number must be is said once, for every floor."""
+"""Checks of numbers."""
 
 import numpy as np
 import pytest
@@ -16,9 +16,9 @@ NO_NUMBERS = [True, "0.2", None, [0.2], np.array(0.2), 1j, np.bool_(True)]
 @pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative])
 @pytest.mark.parametrize("value", NUMBERS, ids=repr)
 def test_checks_accept_python_and_numpy_numbers(check, value):
-    """Python's and numpy's numbers are numbers; the answer is a float of the same value."""
-    found = check("the width", value, "m")
-    assert found == value and isinstance(found, float)
+    """Numbers of Python and NumPy are accepted; the result is a float of the same value."""
+    result = check("the width", value, "m")
+    assert result == value and isinstance(result, float)
 
 
 @pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative, checks.fraction])
@@ -32,39 +32,39 @@ def test_checks_reject_bool_and_text(check, value):
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
 @pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative, checks.fraction])
 def test_checks_reject_non_finite(check, value):
-    """By every check."""
+    """NaN and infinity are rejected by every check."""
     with pytest.raises(ParameterError):
         check("the width", value)
 
 
 def test_checks_respect_interval_ends():
-    """Zero is not positive and not negative; an interval says which of its ends it holds."""
+    """Zero is not positive; brackets tell whether an end belongs to the interval."""
     assert checks.non_negative("x", 0) == 0.0
     assert checks.in_interval("x", 1, "(0, 1]") == checks.in_interval("x", 1.0, "[0, 1]") == 1.0
-    for refused in (
+    for call in (
         lambda: checks.positive("x", 0),
         lambda: checks.in_interval("x", 0, "(0, 1]"),
         lambda: checks.in_interval("x", 1, "[0, 1)"),
     ):
         with pytest.raises(ParameterError):
-            refused()
+            call()
 
 
 def test_check_message_names_quantity_value_and_unit():
-    """In English until it is told; bodies raise their own class, and nothing is worded for what passes."""
-    with pytest.raises(BodyError, match=r"^stone: width must be positive, found -0.2 m$") as found:
+    """The message is English with a Japanese translation; bodies raise their own class."""
+    with pytest.raises(BodyError, match=r"^stone: width must be positive, found -0.2 m$") as error:
         Block(-0.2, 0.6, name="stone")
     with use_locale("ja"):
-        assert "{" not in gettext(found.value.message)
+        assert "{" not in gettext(error.value.message)
 
 
 def test_contact_requires_friction_only():
-    """The rest follows: kinetic as static friction, the restitutions of the paper; what cannot be is refused where it is said."""
+    """Defaults: kinetic as static friction, restitutions of the paper; values out of range raise an error that names them."""
     assert (Contact(0.18).kinetic, Contact(0.18).restitution_x, Contact(0.18).restitution_y) == (0.18, 0.95, 0.85)
-    for wrong, says in (
+    for options, message in (
         ({"mu": -0.1}, "the static friction coefficient `mu` must be zero or more, found -0.1"),
         ({"mu": 0.1, "mu_kinetic": 0.2}, "kinetic friction 0.2 must not exceed static friction 0.1"),
         ({"mu": 0.1, "restitution_y": 1.1}, r"restitution y must lie in \[0, 1\], found 1.1"),
     ):
-        with pytest.raises(ParameterError, match=says):
-            Contact(**wrong)
+        with pytest.raises(ParameterError, match=message):
+            Contact(**options)

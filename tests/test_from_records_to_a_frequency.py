@@ -14,16 +14,16 @@ PAGE = PAGES["docs/tutorials/from_records_to_a_frequency.md"]
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """The folder in which the lines were run; answers that go into a file are there."""
-    there = tmp_path_factory.mktemp("frequency")
+    second = tmp_path_factory.mktemp("frequency")
     with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(there)
+        patch.chdir(second)
         patch.setenv("COLUMNS", "80")
         assert page_differences(PAGE) == []
-        assert changed_figures(PAGE, there) == []
+        assert changed_figures(PAGE, second) == []
         for name in ("bookcase", "upstairs"):
             answer = CliRunner().invoke(main, ["risk", "--fragility", f"{name}.json", "--hazard", "synthetic_hazard.csv", "--json"])
-            (there / f"{name}_risk.json").write_text(answer.stdout, encoding="utf-8")
-    return there
+            (second / f"{name}_risk.json").write_text(answer.stdout, encoding="utf-8")
+    return second
 
 
 def first_result(folder, name):
@@ -34,9 +34,9 @@ def first_result(folder, name):
 @pytest.mark.slow
 def test_tutorial_commands_give_frequency(folder):
     """On an upper floor the bookcase overturns under weaker ground motion, and more often; its warnings name the ground motion."""
-    here, upstairs = first_result(folder, "bookcase"), first_result(folder, "upstairs")
-    assert here["im"] == upstairs["im"] == "pgv" and here["records"] == 12
-    assert upstairs["median"] < here["median"]
+    first, upstairs = first_result(folder, "bookcase"), first_result(folder, "upstairs")
+    assert first["im"] == upstairs["im"] == "pgv" and first["records"] == 12
+    assert upstairs["median"] < first["median"]
     assert first_result(folder, "upstairs_risk")["annual_rate"] > first_result(folder, "bookcase_risk")["annual_rate"] > 0.0
     document = json.loads((folder / "upstairs.json").read_text(encoding="utf-8"))
     assert "floor motion T 0.6 s" in document["record"][0]["history"][-1]

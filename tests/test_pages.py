@@ -8,7 +8,7 @@ import pytest
 from seisblock.cli import COMMANDS, main
 from tests.pages import FENCED, PAGES, changed_figures, lines_of, matches, page_differences
 
-SLOW = {"docs/guides/fit.md"}
+SLOW = {"docs/guides/fit.md", "docs/guides/secure_objects.md", "docs/ja/museum.md", "docs/trust.md"}
 """Pages whose lines take more than some seconds."""
 
 ELSEWHERE = {"docs/tutorials/from_records_to_a_frequency.md"}
@@ -26,7 +26,7 @@ RUN = {name for name, page in PAGES.items() if {"console", "python"} & {kind for
     "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in sorted(RUN - ELSEWHERE - RECIPES)]
 )
 def test_page_output_equals_program(name, tmp_path, monkeypatch):
-    """What a reader sees is what the commands print at 80 columns, what Python answers, and what the figures' lines draw."""
+    """Outputs and figures on the pages equal those of the program at 80 columns."""
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.chdir(tmp_path)
     assert page_differences(PAGES[name]) == []
@@ -45,13 +45,15 @@ def test_page_lines_are_all_recognised():
 def test_shown_commands_and_options_exist(name):
     """Every command and option of a page exists, those that are shown only and those in a sentence too."""
     text = PAGES[name].read_text(encoding="utf-8")
-    shown = [line.split(" #")[0] for kind, block in FENCED.findall(text) if kind == "sh" for line in block.splitlines()]
-    said = [line for line in (*shown, *re.findall(r"`([^`\n]+)`", text)) if re.search(r"(^|&& )seisblock [a-z]", line)]
-    for line in said:
+    items = [line.split(" #")[0] for kind, block in FENCED.findall(text) if kind == "sh" for line in block.splitlines()]
+    mask = [line for line in (*items, *re.findall(r"`([^`\n]+)`", text)) if re.search(r"(^|&& )seisblock [a-z]", line)]
+    for line in mask:
         command, *words = line[line.index("seisblock ") :].split(" | ")[0].split()[1:]
         assert command in COMMANDS, line
-        known = {name for param in main.get_command(click.Context(main), command).params for name in (*param.opts, *param.secondary_opts)}
-        assert {word.split("=")[0] for word in words if re.match(r"--?[a-z]", word)} <= known | {"--help"}, line
+        expected = {
+            name for param in main.get_command(click.Context(main), command).params for name in (*param.opts, *param.secondary_opts)
+        }
+        assert {word.split("=")[0] for word in words if re.match(r"--?[a-z]", word)} <= expected | {"--help"}, line
 
 
 def test_page_comparison_detects_changes():
@@ -60,4 +62,4 @@ def test_page_comparison_detects_changes():
     assert matches("NS: falls\n...", "NS: falls\na")
     assert not matches("NS: falls\n...\nend", "NS: stands\na\nend")
     assert not matches("NS: falls ... 3", "NS: falls 1 3")
-    assert lines_of("$ seisblock a\nx  \n\n$ seisblock b\n")[0].shown == "x"
+    assert lines_of("$ seisblock a\nx  \n\n$ seisblock b\n")[0].output == "x"

@@ -55,9 +55,9 @@ def test_commands_reject_block_of_24_m(command):
     words = [command, "--width", "24", "--height", "72"]
     if command == "slide":
         words = ["infer", "--slid", "24", "--mu", "0.3"]
-    found = CliRunner().invoke(main, words)
-    assert found.exit_code == 2
-    assert "has no unit and exceeds 20 m: write 24cm, 24mm or 24m" in " ".join(found.stderr.split())
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 2
+    assert "has no unit and exceeds 20 m: write 24cm, 24mm or 24m" in " ".join(result.stderr.split())
 
 
 @pytest.mark.parametrize("text", ["1" * 100_000, "1.1" * 30_000, " " * 100_000, "1" + " " * 50_000 + "x", "10.7sun" + "9" * 400], ids=len)

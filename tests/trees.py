@@ -1,4 +1,4 @@
-"""The package's files as Python reads them, each parsed once: many rules of the house look at all of them."""
+"""Syntax trees of the package, parsed once for all architecture tests."""
 
 import ast
 import functools
@@ -6,5 +6,5 @@ import functools
 
 @functools.cache
 def syntax_tree(path):
-    """Return the syntax tree of a file, which nobody changes."""
+    """Return the syntax tree of a file; must not be changed."""
     return ast.parse(path.read_text(encoding="utf-8"))

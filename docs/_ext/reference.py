@@ -1,6 +1,6 @@
 """Reference pages generated from the program while the site is built.
 
-A fence named `commands`, `documents`, `formats`, `gallery`, `glossary`, `literature`, `options` or `names` (one public name per
+A fence named `commands`, `documents`, `formats`, `gallery`, `glossary`, `literature`, `options`, `papers` or `names` (one public name per
 line, those of subpackages with a dot) is replaced by the generated text, and the key of a paper in brackets, [Housner1963], by a
 link to its entry.
 """
@@ -24,11 +24,14 @@ from seisblock.cli.command import SECTIONS
 from seisblock.cli.help import help_rows, paragraphs
 from seisblock.core.options import document_key, option_fields, plain_help
 from seisblock.core.registry import get_solver, solver_names
+from seisblock.paper import papers
 from seisblock.readers.registry import list_formats
 from seisblock.references import REFERENCES, cited_commands, command_papers
-from seisblock.report.json.registry import document_commands, json_schema
+from seisblock.report.json.paper import verdict
+from seisblock.report.json.registry import OTHER_DOCUMENTS, document_commands, json_schema
+from seisblock.report.text.paper import VERDICTS
 
-FENCE = re.compile(r"^```\{(commands|documents|formats|gallery|glossary|literature|options|names)\}\n(.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^```\{(commands|documents|formats|gallery|glossary|literature|options|papers|names)\}\n(.*?)^```$", re.M | re.S)
 DOCS = Path(__file__).parents[1]
 KEY = re.compile(r"(?<![\w\]`])\[(" + "|".join(REFERENCES) + r")\](?![\w(_:\]])")
 
@@ -101,7 +104,8 @@ def documents(_: str) -> str:
     types = {kind: json_schema(kind) for kind in document_commands()}
     owners: dict[str, list[str]] = {}
     for kind, schema in types.items():
-        for name in schema["$defs"]:
+        elsewhere = {name for other in OTHER_DOCUMENTS.get(kind, ()) for name in types[other]["$defs"]}
+        for name in schema["$defs"].keys() - elsewhere:
             owners.setdefault(name, []).append(kind)
     parts = []
     for kind, schema in types.items():
@@ -123,20 +127,22 @@ def formats(_: str) -> str:
 
 
 def gallery(_: str) -> str:
-    """Return every figure of the pages, with the command that draws it."""
-    parts = []
+    """Return every figure of the pages: thumbnails, then each with title, caption, the page that explains it and the command that draws it."""
+    thumbnails, parts = [], []
     for page in sorted(DOCS.rglob("*.md"), key=lambda path: ("ja" in path.parts, path)):
         text, where = page.read_text(encoding="utf-8"), page.relative_to(DOCS)
         for line, name in re.findall(r"^\$ (seisblock .*?--plot (\S+\.png).*)$", text, re.M):
             shown = re.search(rf"!\[(.*)\]\(figures/{name}\)", text)
-            if shown:
-                figure = where.parent / "figures" / name
-                parts += [
-                    f"![{shown[1]}]({figure})\n",
-                    f"{shown[1]}: [{text.splitlines()[0].removeprefix('# ')}]({where})\n",
-                    f"```sh\n{line}\n```\n",
-                ]
-    return "\n".join(parts)
+            if not shown:
+                continue
+            caption, figure = shown[1], where.parent / "figures" / name
+            title, target = re.split(r"[:、。]", caption, maxsplit=1)[0], f"gallery-{len(parts) + 1}"
+            thumbnails.append(f"[![{title}]({figure})](#{target})")
+            parts.append(
+                f"({target})=\n\n## {title}\n\n![{caption}]({figure})\n\n"
+                f"*{caption}.* From [{text.splitlines()[0].removeprefix('# ')}]({where}):\n\n```sh\n{line}\n```\n"
+            )
+    return "\n".join((*thumbnails, "", *parts))
 
 
 def literature(_: str) -> str:
@@ -177,6 +183,23 @@ def names(name_list: str) -> str:
     return "\n".join((*parts, "```"))
 
 
+def paper_items(_: str) -> str:
+    """Return a table of the items of each paper: command, whether the paper holds, and the causes of what differs."""
+    parts = []
+    for paper in papers():
+        parts += [f"## {paper.key}\n", "| item | contents | command | agreement | causes of differences |", "|---|---|---|---|---|"]
+        for item in paper.items:
+            cases = paper.cases(item)
+            causes = dict.fromkeys(case.note for case in cases if case.status == "differs")
+            cells = (item.place, plain(item.title), f"`seisblock paper {paper.key.lower()} {item.name}`")
+            differing = sum(case.status == "differs" for case in cases)
+            share = f"{differing} of {len(cases)}" if differing else f"{len(cases)}"
+            result = f"{VERDICTS[verdict(cases)]} ({share})" if cases else VERDICTS["drawn"]
+            parts.append(f"| {' | '.join(cells)} | {result} | {plain('; '.join(causes))} |")
+        parts.append("")
+    return "\n".join(parts)
+
+
 GLOSSARY_GROUPS = {
     "units": ("Units", "単位"),
     "record": ("Record", "記録"),
@@ -207,6 +230,7 @@ GENERATORS = {
     "glossary": glossary,
     "literature": literature,
     "options": options,
+    "papers": paper_items,
     "names": names,
 }
 

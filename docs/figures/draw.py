@@ -8,10 +8,12 @@ INK, SOFT, ACCENT, PAPER = "#222", "#6b6b6b", "#c0392b", "#ffffff"
 
 LAYERS = (
     ("cli", "options, one library call, one presentation"),
-    ("report", "JSON documents, text, figures, animation, HTML pages"),
+    ("report", "documents, text and figures of studies, HTML pages"),
     ("validation", "evidence: cases by paper, exporting CASES"),
     ("studies", "many runs: respond, rocking, survey, fragility, hazard, map, batch, fit"),
-    ("models | criteria", "one folder per model | closed forms"),
+    ("models", "one folder per model: equations, outcome, text, figure, document"),
+    ("output", "toolkit of presentation, which knows no model"),
+    ("criteria", "closed forms"),
     ("bodies | measures | readers", "body descriptions | one number per record | file formats"),
     ("dynamics", "event-driven engine"),
     ("records", "records, motions, processing, quality control"),

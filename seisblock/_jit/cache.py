@@ -113,7 +113,8 @@ def _compile_and_save(compile_kernel: Callable[..., Any], entry: Path) -> Any:
         entry.parent.mkdir(parents=True, exist_ok=True)
         _remove_old(entry.parent)
     with tempfile.TemporaryDirectory(dir=entry.parent) as temporary:
-        _log_once(logging.INFO, lazy_gettext("compiling kernels (first run only, up to 30 s)..."))
+        with _config_lock:  # threads that compile at the same time print one message
+            _log_once(logging.INFO, lazy_gettext("compiling kernels (first run only, up to 30 s)..."))
         logger.debug("compiling %s", entry, extra={"task": N_("compiling kernels")})
         folder = Path(temporary) / entry.name
         with _numba_cache_dir(folder):

@@ -1,6 +1,7 @@
 from .block import Block, from_slenderness
 from .cemetery.cemetery import Cemetery, Stone
 from .cemetery.table import read_cemetery
+from .convex import ConvexBody
 from .edge_wear import EdgeWear
 from .factory import load_block
 from .pile.contact import PileContact
@@ -21,6 +22,7 @@ __all__ = [
     "BodySpec",
     "Cemetery",
     "Contact",
+    "ConvexBody",
     "EdgeWear",
     "from_slenderness",
     "load_block",

@@ -48,7 +48,7 @@ class Block(DisplayMixin):
     height : float, m
         Overall height, 2h.
     depth : float, m
-        Base across the motion, default the width; affects only the mass.
+        Base across the motion, default the width; affects the mass, and the base towards an azimuth.
     mass : float, kg
         Default: volume times density.
     density : float, kg/m^3
@@ -208,6 +208,46 @@ class Block(DisplayMixin):
         """
         depth = (inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset)).inset(self.width)
         return replace(self.without_ranges("inset_m"), inset=depth)
+
+    def block_toward(self, azimuth: float) -> Block:
+        """Return the equivalent block in the vertical plane at an azimuth from the width of the base.
+
+        The pivots are the horizontal lines across the plane that touch the base, as for a scan: towards a corner the base of a square is
+        1.41 times as wide. Out-of-plane rotation is neglected (derived here).
+
+        The centre of gravity lies off the middle to the side of the azimuth: from 90 to 270 degrees the body stands turned round, so
+        that the full circle has both of its orientations in every plane.
+
+        Parameters
+        ----------
+        azimuth : float, degrees
+
+        Examples
+        --------
+        >>> round(Block(1.0, 2.0).block_toward(45.0).width, 6), Block(1.0, 2.0, depth=3.0).block_toward(90.0).width
+        (1.414214, 3.0)
+        """
+        turn = math.radians(checks.finite("the azimuth", azimuth, "degrees"))
+        # round-off of a quarter turn must not widen the base
+        c, s = round(math.cos(turn), 15) + 0.0, round(math.sin(turn), 15) + 0.0
+        depth = self.width if self.depth is None else self.depth
+        if abs(c) == 1.0:
+            return self
+        widening = abs(c) + abs(s) * min(1.0, depth / self.width)
+        ranges = self.ranges
+        if ranges is not None and ranges.inset_m is not None:
+            ranges = replace(ranges, width_m=None, inset_m=(widening * ranges.inset_m[0], widening * ranges.inset_m[1]))
+        inertia = self.total_mass * (self.gyration_squared + s * s * (depth * depth - self.width * self.width) / 12)
+        return replace(
+            self,
+            width=self.width * abs(c) + depth * abs(s),
+            depth=self.width * abs(s) + depth * abs(c),
+            mass=self.total_mass,
+            centroid_offset=abs(c) * self.centroid_offset,
+            centroid_inertia=inertia,
+            inset=widening * self.inset,
+            ranges=ranges,
+        )
 
     def without_ranges(self, *names: str) -> Block:
         """Return the block without the ranges of the given parameters, whose values are known."""

@@ -166,8 +166,12 @@ def samples(block: Block, tolerance: float, *, wide: FloatArray, tall: FloatArra
     worn : (m,) array
         Draws in [-1, 1] for the edge wear of each sample within its range.
     """
-    share = within(wear_range(block, tolerance), block.inset / block.width, worn)
-    return block_variants(block, size=tall, slenderness=wide / tall, inset_share=share)
+    return block_variants(block, size=tall, slenderness=wide / tall, inset_share=wear_shares(block, tolerance, worn))
+
+
+def wear_shares(block: Block, tolerance: float, worn: FloatArray) -> FloatArray:
+    """Return the edge wear of samples of a block, shares of the width per side, (m,); see :func:`samples`."""
+    return within(wear_range(block, tolerance), block.inset / block.width, worn)
 
 
 def wear_within(block: Block, share: float) -> float:

@@ -11,6 +11,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.scan.toml import scan_from_table
+from seisblock.bodies.spring_factory import springs_from_table
 from seisblock.bodies.toml import (
     check_keys,
     get_edge_wear,
@@ -26,6 +27,7 @@ from seisblock.bodies.two_layer import contact_from_table, two_layer_from_table
 from seisblock.bodies.uncertainty import parse_ranges
 from seisblock.core.errors import BodyError
 from seisblock.records import Motion
+from seisblock.records.motion import requested_azimuth
 
 AnyBody = TypeVar("AnyBody")
 
@@ -68,10 +70,15 @@ def block_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block:
         return two_layer_from_table(table, side).as_block()
     if kind == "pile":
         return load_pile(source).as_block()
+    if kind == "springs":
+        springs = springs_from_table(table)
+        return Block(springs.width, springs.height, springs.depth, springs.mass, name=get_text(table, "name", source))
     if kind == "scan":
         raise BodyError("{where} is a scan, whose dimensions depend on the azimuth: give the azimuth", where=source)
     if kind != "block":
-        raise BodyError('{where}: kind must be "block", "two-layer", "pile" or "scan", found {kind}', where=source, kind=quote_value(kind))
+        raise BodyError(
+            '{where}: kind must be "block", "two-layer", "pile", "springs" or "scan", found {kind}', where=source, kind=quote_value(kind)
+        )
     check_keys(table, _KEYS)
     sizes: dict[str, Any] = {"width": get_length(table, "width"), "height": get_length(table, "height")}
     sizes |= {key: get_length(table, key) for key in _LENGTH_KEYS[2:] if key in table}
@@ -100,13 +107,19 @@ def body_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block |
 def block_for_motion(body: AnyBody, motion: Motion) -> AnyBody | Block:
     """Return the block for a motion: of a scan, the block of the motion's azimuth.
 
+    The width of a block lies along a recorded component. Towards an azimuth it stands with its width towards north, and its base is
+    projected, as in a sweep of all azimuths.
+
     Examples
     --------
     >>> stone = load_block("gravestone")
     >>> block_for_motion(stone, Motion.from_arrays([0.0, 1.0], 0.01)) is stone
     True
     """
-    return body.block_for_motion(motion) if isinstance(body, ScannedBody) else body
+    if isinstance(body, ScannedBody):
+        return body.block_for_motion(motion)
+    azimuth = requested_azimuth(motion)
+    return body if azimuth is None or not isinstance(body, Block) else body.block_toward(azimuth)
 
 
 def table_restitution(table: Mapping[str, Any], name: str) -> float | None:

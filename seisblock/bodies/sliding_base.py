@@ -87,17 +87,13 @@ class SlidingBase(DisplayMixin):
     @property
     def kappa(self) -> float:
         """Kinetic over static friction."""
-        return self.kinetic / self.mu
+        # 0.2 * 0.2 / 0.2 differs from 0.2 by round-off
+        return float(f"{self.kinetic / self.mu:.15g}")
 
     @property
     def angle(self) -> float:
         """Slope, rad."""
         return math.radians(self.slope_deg)
-
-    @property
-    def never_stops(self) -> bool:
-        """True if kinetic friction never stops downhill sliding on the slope ([Fujino1978]_ eq. (14))."""
-        return self.slope_deg != 0.0 and self.kinetic <= abs(math.tan(self.angle))
 
 
 def holds_at_rest(mu: float, slope_deg: float) -> bool:

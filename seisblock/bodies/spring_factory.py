@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
 
 from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
+from seisblock.bodies.toml import check_keys, check_kind, entries, get_length, get_number, read_body_toml
 from seisblock.core.errors import BodyError
 
 PAPER_BETA = 0.707
@@ -75,3 +78,59 @@ def spring_block(
         mass=REFERENCE_MASS if mass is None else mass,
         damping=zeta,
     )
+
+
+SIZES, NUMBERS = ("width", "depth", "height"), ("mass", "frequency_vertical", "beta", "damping")
+"""Entries of a table of kind ``springs``, beside ``stiffness``."""
+
+
+def springs_from_table(table: Mapping[str, Any], **overrides: Any) -> SpringBlock:
+    """Return the block on corner springs described by a TOML table.
+
+    Parameters
+    ----------
+    table : mapping
+        ``kind = "springs"``, with the arguments of :func:`spring_block`.
+    overrides
+        Arguments that replace those of the table; None: as in the table.
+
+    Raises
+    ------
+    BodyError
+        If an entry is missing, unknown or out of range.
+    """
+    check_kind(table, "springs")
+    check_keys(table, ("kind", "name", "stiffness", *SIZES, *NUMBERS))
+    values: dict[str, Any] = {key: get_length(table, key) for key in SIZES if key in table}
+    values |= {key: get_number(table, key) for key in NUMBERS if key in table}
+    if "stiffness" in table:
+        values["stiffness"] = tuple(get_number({**table, "stiffness": k}, "stiffness") for k in entries(table, "stiffness", 3))
+    given_values = {key: value for key, value in overrides.items() if value is not None}
+    # stiffness and frequencies exclude each other
+    for name, excluded in (("stiffness", ("frequency_vertical", "beta")), ("frequency_vertical", ("stiffness",)), ("beta", ("stiffness",))):
+        if name in given_values:
+            values = {key: value for key, value in values.items() if key not in excluded}
+    return spring_block(**{**values, **given_values})
+
+
+def load_springs(name: str | Path, **overrides: Any) -> SpringBlock:
+    """Return the block on corner springs of a TOML file or a bundled one (``machine``).
+
+    Parameters
+    ----------
+    name : str or Path
+        File of kind ``springs``, see :func:`springs_from_table`.
+    overrides
+        Arguments of :func:`spring_block` that replace those of the file.
+
+    Raises
+    ------
+    BodyError
+        If there is no such body, or it is not possible.
+
+    Examples
+    --------
+    >>> round(load_springs("machine").alpha, 4)
+    0.8571
+    """
+    return springs_from_table(read_body_toml(name, kind="springs"), **overrides)

@@ -1,32 +1,34 @@
-"""Tables of bodies (CSV), and body files, as specifications for solvers."""
+"""Tables of bodies and of gravestones (CSV, .xlsx), and body files, as specifications for solvers."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
+from seisblock.bodies.edge_wear import parse_edge_wear
 from seisblock.bodies.toml import read_body_toml
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
-from seisblock.core.errors import BodyError, InputError
-from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.io.csv_table import (
-    data_lines,
-    find_separator,
+    FALSE_WORDS,
+    TRUE_WORDS,
+    UNKNOWN_WORDS,
     is_bare_number,
-    more_bad_rows,
     parse_heading,
     parse_length_cell,
     parse_number_cell,
-    read_text,
-    row_dict,
-    split_cells,
 )
-from seisblock.core.limits import MAX_BODIES, check_limit
-from seisblock.core.units import parse_mass
+from seisblock.core.io.spreadsheet import Sheet, is_table, read_sheet
+from seisblock.core.limits import MAX_BODIES, MAX_STONES, check_limit
+from seisblock.core.units import SUN, parse_mass
+
+PAPER_WIDTH = 8 * SUN
+"""Default width of an upper stone (sao), m: that of the fitted criterion ([Furukawa2009]_ table 1)."""
 
 LENGTH_COLUMNS = ("width", "height", "depth", "centroid_height", "centroid_offset", "slope_length", "tenon", "drop")
 NUMBER_COLUMNS = (
@@ -43,27 +45,66 @@ NUMBER_COLUMNS = (
     "damping",
 )
 TEXT_COLUMNS = ("name", "body", "surface", "side", "kind")
-POSITIVE_COLUMNS = ("width", "height", "depth", "centroid_height", "slope_length", "mass", "density", "frequency_vertical")
-SIGNED_COLUMNS = ("centroid_offset", "slope_deg")
+SURVEY_COLUMNS = ("height_over_width", "reinforced", "fallen", "azimuth_deg", "count")
+"""Columns of a survey of gravestones: a table with one of them lists stones."""
+
+AMBIGUOUS_COLUMNS = ("azimuth_deg", "count")
+"""Columns of a survey whose headings (number, direction) mean something else in an inventory."""
+
+POSITIVE_COLUMNS = (
+    "width",
+    "height",
+    "depth",
+    "centroid_height",
+    "slope_length",
+    "mass",
+    "density",
+    "frequency_vertical",
+    "height_over_width",
+)
+SIGNED_COLUMNS = ("centroid_offset", "slope_deg", "azimuth_deg")
 """Columns that may be negative; all others are zero or more."""
 
-_JAPANESE_NAMES = {
-    "width": ("幅",),
-    "height": ("高さ",),
-    "depth": ("奥行", "奥行き"),
+_SPELLINGS = {
+    "width": ("b", "幅", "竿幅", "竿の幅", "竿石幅", "竿石の幅"),
+    "height": ("h", "高さ", "高", "竿高さ", "竿の高さ", "竿石高さ", "竿石の高さ"),
+    "depth": ("奥行", "奥行き", "竿奥行", "竿石奥行"),
     "mass": ("質量",),
     "mu": ("摩擦係数", "静摩擦係数"),
     "mu_kinetic": ("動摩擦係数",),
     "restitution": ("反発係数",),
     "centroid_height": ("重心高さ", "重心の高さ"),
-    "name": ("名前", "名称", "資料名"),
+    "name": ("名前", "名称", "資料名", "番号", "墓石番号", "整理番号", "no", "no.", "id"),
     "surface": ("接触面",),
     "kind": ("種類", "種別"),
+    "inset": ("摩耗", "縁の摩耗"),
+    "height_over_width": ("h/b", "hb", "h/w", "height/width", "高さ幅比", "高さ/幅", "縦横比", "高さ幅比h/b", "竿の高さ幅比"),
+    "reinforced": ("dowelled", "doweled", "補強", "補強の有無"),
+    "fallen": ("overturned", "転倒", "転倒の有無", "転倒有無", "転倒状況", "被害", "倒伏"),
+    "azimuth_deg": ("azimuth", "方位", "方位角", "向き"),
+    "count": ("number", "個数", "基数", "数"),
 }
 _COLUMNS = {
     spelling: name
-    for name in (*TEXT_COLUMNS, *LENGTH_COLUMNS, "mass", *NUMBER_COLUMNS, "inset")
-    for spelling in (name.replace("_", ""), *_JAPANESE_NAMES.get(name, ()))
+    for name in (*TEXT_COLUMNS, *LENGTH_COLUMNS, "mass", *NUMBER_COLUMNS, "inset", *SURVEY_COLUMNS)
+    for spelling in (name.replace("_", ""), *_SPELLINGS.get(name, ()))
+}
+"""Keys by heading, without case, blanks and underscores."""
+
+_STONE_WORD = "竿"
+"""A heading with the word for an upper stone (sao) makes a table one of gravestones."""
+
+_BOOLEAN_WORDS = {
+    "fallen": (
+        TRUE_WORDS | {"fallen", "overturned", "転倒", "倒れた", "倒伏"},
+        FALSE_WORDS | {"standing", "stood", "残存", "未転倒", "不転倒", "非転倒", "正立", "直立"},
+        N_("0, 1, yes, no, 転倒 or 残存"),
+    ),
+    "reinforced": (
+        TRUE_WORDS | {"reinforced", "補強", "補強有", "補強あり"},
+        FALSE_WORDS | {"unreinforced", "無補強", "補強なし"},
+        N_("0, 1, yes or no"),
+    ),
 }
 
 _UNITS = {
@@ -74,8 +115,11 @@ _UNITS = {
 }
 """Units accepted in the headings of columns without other units."""
 
-MAX_LENGTH = 100.0
-"""Largest plausible size, m; larger numbers probably lack their unit."""
+MAX_LENGTH, MAX_STONE_LENGTH = 100.0, 20.0
+"""Largest plausible size of an object and of a gravestone, m; larger numbers probably lack their unit."""
+
+RATIO_TOLERANCE = 0.05
+"""Largest relative difference between a given ratio and that of height and width."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -92,24 +136,29 @@ class BodySpec(DisplayMixin):
         TOML table of the body's file.
     source : str
         File, and line of a table, for messages.
+    error : str or None
+        Reason why an invalid row of a list describes no body, see :func:`read_body_list`.
     """
 
     name: str
     parameters: Mapping[str, Any] = field(default_factory=dict)
     description: Mapping[str, Any] | None = None
     source: str = ""
+    error: str | None = None
 
 
 def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...]:
     """Return the bodies of tables, body files and bundled names.
 
-    A table (.csv) has a header that names its columns: ``name``; ``width``, ``height``, ``depth``, ``centroid_height``,
-    ``centroid_offset``, ``slope_length``, ``tenon``, ``drop`` (m, or with a unit in the heading, ``width (cm)``, or in the cell, ``24cm``);
-    ``mass`` (kg, or with a unit); ``inset`` (a length, or a share per side); ``mu``, ``mu_kinetic``, ``kappa``, ``surface``,
-    ``restitution``, ``rocking_restitution``, ``slope_deg``, ``frequency_vertical`` (Hz), ``beta``, ``damping``, ``density``,
+    A table (.csv, .xlsx) has a header that names its columns in English or Japanese: ``name``; ``width``, ``height``, ``depth``,
+    ``centroid_height``, ``centroid_offset``, ``slope_length``, ``tenon``, ``drop`` (m, or with a unit in the heading, ``width (cm)``, or
+    in the cell, ``24cm``); ``mass`` (kg, or with a unit); ``inset`` (a length, or a share per side); ``mu``, ``mu_kinetic``, ``kappa``,
+    ``surface``, ``restitution``, ``rocking_restitution``, ``slope_deg``, ``frequency_vertical`` (Hz), ``beta``, ``damping``, ``density``,
     ``centroid_inertia``; ``kind`` (gravestone, furniture, statue or block) beside sizes; and ``body``, a file or a bundled body whose
-    description the row uses, with ``side`` short or long. Empty cells are ignored. Any other name is a file that describes one body, or a
-    bundled body.
+    description the row uses, with ``side`` short or long. Empty cells are ignored. A table with a column of a survey (``fallen``,
+    ``reinforced``, ``height_over_width``, ``count``, ``azimuth_deg``) lists gravestones, as in
+    :func:`~seisblock.bodies.cemetery.table.read_cemetery`: their kind is gravestone, a row with a count is that many bodies, names are
+    optional, and other columns are ignored. Any other name is a file that describes one body, or a bundled body.
 
     Parameters
     ----------
@@ -131,17 +180,37 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
     >>> [body.name for body in read_bodies(["gravestone", "lantern"])]
     ['gravestone', 'lantern']
     """
+    return _read_all(names, is_list=False)[0]
+
+
+def read_body_list(names: str | Path | Iterable[str | Path]) -> tuple[tuple[BodySpec, ...], tuple[Message, ...]]:
+    """Return the bodies of inventories, and notes: as :func:`read_bodies`, but one invalid cell does not refuse the others.
+
+    An invalid row becomes a body with the reason as its ``error``; columns with another meaning are ignored and named in a note.
+
+    Parameters
+    ----------
+    names : str, Path or iterable
+    """
+    return _read_all(names, is_list=True)
+
+
+def _read_all(names: str | Path | Iterable[str | Path], *, is_list: bool) -> tuple[tuple[BodySpec, ...], tuple[Message, ...]]:
     paths = [names] if isinstance(names, (str, Path)) else list(names)
-    bodies = [body for name in paths for body in (_read_body_table(str(name)) if _is_table(name) else [_read_body_file(str(name))])]
+    bodies: list[BodySpec] = []
+    notes: list[Message] = []
+    for name in map(str, paths):
+        if is_table(name):
+            rows, ignored = _read_body_table(name, is_list=is_list)
+            bodies += rows
+            if ignored:
+                notes.append(lazy_gettext("{source}: columns ignored: {columns}", source=Path(name).name, columns=ignored))
+        else:
+            bodies.append(_read_body_file(name))
     if not bodies:
         raise BodyError("body required: give a table of bodies, a file that describes one body, or a bundled body")
     check_limit(N_("bodies"), len(bodies), MAX_BODIES, error=BodyError)
-    return tuple(bodies)
-
-
-def _is_table(name: str | Path) -> bool:
-    """Return whether a file is a table, by its suffix."""
-    return Path(name).suffix.lower() in (".csv", ".tsv", ".txt")
+    return tuple(bodies), tuple(notes)
 
 
 def _read_body_file(name: str) -> BodySpec:
@@ -150,38 +219,172 @@ def _read_body_file(name: str) -> BodySpec:
     return BodySpec(Path(name).stem if Path(name).suffix else name, description=table, source=name)
 
 
-def _read_body_table(name: str) -> list[BodySpec]:
+def _read_body_table(name: str, *, is_list: bool) -> tuple[list[BodySpec], tuple[str, ...]]:
+    """Return the bodies of a table and the headings of ignored columns."""
     path = Path(name)
     if path.is_dir():
         raise BodyError("{name} is a folder: give a CSV file with one body on each line", name=name)
-    lines = data_lines(read_text(path, name))
-    if len(lines) < 2:
+    sheet = read_sheet(path, name)
+    if len(sheet.rows) < 2:
         raise BodyError("{name} contains no bodies: a header and one line per body are required", name=name)
-    (header_line, header), rows = lines[0], lines[1:]
-    separator = find_separator(header)
-    columns, units = _parse_header(split_cells(header, separator), name, header_line)
-    bodies, bad_rows = [], []
-    for number, line in rows:
-        try:
-            bodies.append(
-                _parse_row(
-                    row_dict(columns, split_cells(line, separator)), units, lazy_gettext("{name}, line {line}", name=name, line=number)
-                )
+    table = parse_table(sheet, is_list=is_list)
+    check_limit(N_("bodies"), sum(row.count for row in table.rows), MAX_BODIES, source=name, error=BodyError)
+    return [spec for row in table.rows for spec in _body_specs(row, name, stones=table.stones)], table.ignored
+
+
+@dataclass(frozen=True)
+class TableRow:
+    """Values of one row.
+
+    Parameters
+    ----------
+    line : int
+        Line of the file.
+    name : str
+        Of the row; its number, counted from 1, where names are optional and missing.
+    values : mapping of str to float, str, bool or EdgeWear
+        Non-empty cells by key, SI; of a gravestone always with ``height_over_width``, and with both sizes if one is known.
+    count : int
+        Number of such bodies.
+    error : str or None
+        Reason why the row is invalid.
+    """
+
+    line: int
+    name: str
+    values: Mapping[str, Any]
+    count: int = 1
+    error: str | None = None
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of a table of bodies.
+
+    Parameters
+    ----------
+    rows : tuple of TableRow
+    stones : bool
+        True for a survey of gravestones.
+    header_line : int
+    ignored : tuple of str
+        Headings of columns of a list of bodies that have another meaning.
+    """
+
+    rows: tuple[TableRow, ...]
+    stones: bool
+    header_line: int
+    ignored: tuple[str, ...] = ()
+
+
+def parse_table(sheet: Sheet, *, stones: bool | None = None, is_list: bool = False) -> Table:
+    """Return the rows of a table of bodies or gravestones; the one reader of both.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With at least one row.
+    stones : bool or None
+        True: every row is a gravestone; None: by the headings.
+    is_list : bool
+        True: invalid rows are kept with their reason, and unknown columns of bodies are ignored.
+
+    Raises
+    ------
+    BodyError
+        If a column is unknown or missing, or a row is invalid; the message gives the line.
+    """
+    (header_line, header), rows = sheet.split_header(_COLUMNS)
+    columns, units = _parse_header(header, sheet.source, header_line)
+    marks = [key for key in SURVEY_COLUMNS if not (is_list and key in AMBIGUOUS_COLUMNS)]
+    lists_stones = any(key in marks for key in columns) or any(_STONE_WORD in cell for cell in header) if stones is None else stones
+    if is_list and not lists_stones:
+        columns = ["" if key in AMBIGUOUS_COLUMNS else key for key in columns]
+    if not lists_stones:
+        _require_known(columns, header, sheet.source, header_line, is_list=is_list)
+    elif "height_over_width" not in columns and not {"height", "width"} <= set(columns):
+        raise BodyError(
+            "{source}, line {line}: columns required: height_over_width, or height and width; found {found}",
+            source=sheet.source,
+            line=header_line,
+            found=header or lazy_gettext("none"),
+        )
+    numbers = {line: number for number, (line, _) in enumerate(rows, start=1)}
+
+    def parse_row(cells: dict[str, str], line: int) -> TableRow:
+        values = {
+            key: value
+            for key, cell in cells.items()
+            if key and cell and (value := _parse_value(key, cell, units.get(key, ""), stone=lists_stones)) is not None
+        }
+        count = int(values.pop("count", 1))
+        name = values.pop("name", "")
+        if lists_stones:
+            return TableRow(line, name or str(numbers[line]), _with_ratio(values), count)
+        if not name and not is_list:
+            raise BodyError("the name of a body is empty: fill the cell")
+        return TableRow(line, name or str(numbers[line]), values)
+
+    def keep_invalid_row(cells: dict[str, str], line: int, reason: Message) -> TableRow:
+        return TableRow(line, cells.get("name") or str(numbers[line]), {}, error=reason)
+
+    parsed = sheet.parse_rows(columns, rows, parse_row, keep_invalid_row if is_list else None)
+    ignored = () if lists_stones else tuple(cell[:100] for key, cell in zip(columns, header, strict=True) if cell and not key)
+    return Table(tuple(parsed), lists_stones, header_line, ignored)
+
+
+def _body_specs(row: TableRow, source: str, *, stones: bool) -> list[BodySpec]:
+    """Return the bodies of a row; several for a count of gravestones."""
+    values = dict(row.values)
+    place = lazy_gettext("{name}, line {line}", name=source, line=row.line)
+    if row.error is not None:
+        return [BodySpec(row.name, source=place, error=lazy_gettext("line {line}: {why}", line=row.line, why=row.error))]
+    if stones:
+        if values.pop("reinforced", False):
+            raise BodyError(
+                "{source}: a stone with a dowel is not a rigid block; remove the row, or use the criterion furukawa of overturn-rate",
+                source=place,
             )
-        except InputError as error:
-            bad_rows.append((number, error.message))
-    if bad_rows:
-        (bad_line, message), more_text = bad_rows[0], more_bad_rows([number for number, _ in bad_rows[1:]])
-        raise BodyError("{source}, line {line}: {what}{others}", source=name, line=bad_line, what=message, others=more_text)
-    return bodies
+        ratio = values.pop("height_over_width")
+        width = values.setdefault("width", PAPER_WIDTH)
+        values.setdefault("height", width * ratio)
+        values.setdefault("kind", "gravestone")
+        for key in ("fallen", "azimuth_deg"):
+            values.pop(key, None)
+    description = values.pop("body", None)
+    names = [row.name] if row.count == 1 else [f"{row.name}-{number}" for number in range(1, row.count + 1)]
+    return [BodySpec(name, values, description, place) for name in names]
 
 
 def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
-    """Return the meaning of each column and the units in the headings; unknown columns raise an error."""
+    """Return the key of each column (empty if unknown) and the units in the headings."""
     columns, units = [], {}
     for cell in cells:
         name, unit = parse_heading(cell, _COLUMNS)
-        if not name:
+        if name and name in columns:
+            raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
+        if name and unit and name not in (*LENGTH_COLUMNS, "mass", "inset") and unit.casefold() not in _UNITS.get(name, ()):
+            # 転倒(有無), 転倒(1/0): a remark on the values, not a unit
+            if name not in SURVEY_COLUMNS and name not in TEXT_COLUMNS:
+                raise BodyError(
+                    "{source}, line {line}: unit {unit!r} of column {cell!r} is not known; known: {expected}",
+                    source=source,
+                    line=line,
+                    cell=cell[:100],
+                    unit=unit[:100],
+                    expected=list(_UNITS.get(name, ())) or lazy_gettext("none"),
+                )
+            unit = ""
+        if name:
+            units[name] = unit
+        columns.append(name)
+    return columns, units
+
+
+def _require_known(columns: Sequence[str], header: Sequence[str], source: str, line: int, *, is_list: bool) -> None:
+    """Raise an error for an unknown heading of another table than a list, or for bodies without names."""
+    for key, cell in zip(columns, header, strict=True):
+        if not key and not is_list:
             raise BodyError(
                 "{source}, line {line}: unknown column {cell!r}; known: {known}",
                 source=source,
@@ -189,49 +392,51 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
                 cell=cell[:100],
                 known=[*TEXT_COLUMNS, *LENGTH_COLUMNS, "mass", *NUMBER_COLUMNS, "inset"],
             )
-        if name in columns:
-            raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
-        if unit and name not in (*LENGTH_COLUMNS, "mass", "inset") and unit.casefold() not in _UNITS.get(name, ()):
-            raise BodyError(
-                "{source}, line {line}: unit {unit!r} of column {cell!r} is not known; known: {expected}",
-                source=source,
-                line=line,
-                cell=cell[:100],
-                unit=unit[:100],
-                expected=list(_UNITS.get(name, ())) or lazy_gettext("none"),
-            )
-        units[name] = unit
-        columns.append(name)
     if "name" not in columns:
-        raise BodyError("{source}, line {line}: column name required; found {found}", source=source, line=line, found=list(cells))
-    return columns, units
+        raise BodyError("{source}, line {line}: column name required; found {found}", source=source, line=line, found=list(header))
 
 
-def _parse_row(row: Mapping[str, str], units: Mapping[str, str], source: str) -> BodySpec:
-    name = row["name"]
-    if not name:
-        raise BodyError("the name of a body is empty: fill the cell")
-    values: dict[str, Any] = {}
-    for key, cell in row.items():
-        if key != "name" and cell:
-            values[key] = _parse_value(key, cell, units.get(key, ""))
-    description = read_body_toml(values.pop("body")) if "body" in values else None
-    return BodySpec(name, values, description, source)
+def _with_ratio(values: dict[str, Any]) -> dict[str, Any]:
+    """Return the values of a gravestone with its H/B, and with both sizes if one is known."""
+    width, height, ratio = (values.get(key) for key in ("width", "height", "height_over_width"))
+    if width is not None and height is not None:
+        if ratio is not None and abs(height / width / ratio - 1.0) > RATIO_TOLERANCE:
+            raise BodyError("height over width is {ratio:g}, but height and width give {found:.3g}", ratio=ratio, found=height / width)
+        return {"height_over_width": height / width} | values
+    if ratio is None:
+        missing_names = [key for key, value in (("height", height), ("width", width)) if value is None]
+        raise BodyError("dimensions missing: height over width, or height and width, required; empty: {missing}", missing=missing_names)
+    if height is not None:
+        values["width"] = height / ratio
+    elif width is not None:
+        values["height"] = width * ratio
+    return values
 
 
-def _parse_value(key: str, cell: str, unit: str) -> float | str | EdgeWear:
-    """Return the value of a cell, SI."""
+def _parse_value(key: str, cell: str, unit: str, *, stone: bool) -> Any:
+    """Return the value of a cell, SI; None for an outcome marked as unknown."""
+    if key == "body":
+        return read_body_toml(cell)
     if key in TEXT_COLUMNS:
         return cell
+    if key in _BOOLEAN_WORDS:
+        return _parse_bool(key, cell)
     if key == "inset":
         return parse_edge_wear(cell + unit if is_bare_number(cell) else cell)
     if key == "mass":
         return _check_range(key, parse_mass(cell + unit if is_bare_number(cell) else cell, quantity=key), "kg")
+    if key == "count":
+        return _parse_count(cell)
     if key in LENGTH_COLUMNS:
-        value = parse_length_cell(cell, key, unit)
-        if abs(value) > MAX_LENGTH:
-            raise BodyError("{key} of {value:g} m is not plausible for an object (read as metres without a unit)", key=key, value=value)
-        return _check_range(key, value, "m")
+        value = _check_range(key, parse_length_cell(cell, key, unit), "m")
+        if abs(value) > (MAX_STONE_LENGTH if stone else MAX_LENGTH):
+            remedy = (
+                lazy_gettext(" (read as metres without a unit: name the column, for example, {key} (cm))", key=key)
+                if is_bare_number(cell) and not unit
+                else ""
+            )
+            raise BodyError("{key} of {value:g} m is not plausible{remedy}", key=key, value=value, remedy=remedy)
+        return value
     return _check_range(key, parse_number_cell(cell, key))
 
 
@@ -239,3 +444,23 @@ def _check_range(key: str, value: float, unit: str = "") -> float:
     """Return a number after the range check of its column."""
     check = checks.finite if key in SIGNED_COLUMNS else checks.positive if key in POSITIVE_COLUMNS else checks.non_negative
     return check("{key}", value, unit, key=key, error=BodyError)
+
+
+def _parse_count(cell: str) -> int:
+    """Return the number of stones of a row."""
+    value = parse_number_cell(cell, "count")
+    if not (1 <= value < math.inf and value == int(value)):
+        raise BodyError("count must be an integer, 1 or more; found {count}", count=cell)
+    check_limit(N_("gravestones"), int(value), MAX_STONES, error=BodyError)
+    return int(value)
+
+
+def _parse_bool(key: str, cell: str) -> bool | None:
+    """Return a bool; None for a cell that says unknown."""
+    true_words, false_words, expected = _BOOLEAN_WORDS[key]
+    word = cell.casefold()
+    if word in UNKNOWN_WORDS:
+        return None
+    if word not in true_words | false_words:
+        raise BodyError("{key} must be {expected}, found {text!r}", key=key, expected=lazy_gettext(expected), text=cell)
+    return word in true_words

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
+from seisblock.bodies.scan.mesh import SUFFIXES as MESH_SUFFIXES
 from seisblock.core import checks
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
@@ -47,6 +48,8 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
         path = bundled
     if path.is_dir():
         raise BodyError("{name} is a folder: give a TOML file that describes a body", name=name)
+    if path.suffix.lower() in MESH_SUFFIXES:
+        raise BodyError("{name} is a mesh: give the TOML file that `seisblock body` writes of it", name=str(name))
     data = read_bytes(path, str(name), BodyError)
     if not data.strip():
         raise BodyError("{name} is empty: give a TOML file that describes a body", name=name)

@@ -51,6 +51,8 @@ class TwoLayerBlock(DisplayMixin):
     upper_mass, lower_mass : float, kg
         m1 and m2.
     name : str
+    side : str or None
+        ``short`` or ``long``, the side along the motion of a body with both; None for a body with one width.
 
     Raises
     ------
@@ -70,6 +72,7 @@ class TwoLayerBlock(DisplayMixin):
     upper_mass: float
     lower_mass: float
     name: str = N_("two-layer block")
+    side: str | None = None
 
     def __post_init__(self) -> None:
         for key, (label, unit) in _POSITIVE_FIELDS.items():
@@ -247,17 +250,17 @@ def two_layer_from_table(table: Mapping[str, Any], side: str = "short") -> TwoLa
     name = get_text(table, "name", str(table.get("source", "two-layer block")))
     if "width" in table:
         width, depth = get_length(table, "width"), get_length(table, "depth")
-    else:
-        if side not in ("short", "long"):
-            raise BodyError("{name}: side must be short or long, found {side!r}", name=name, side=side)
-        width = get_length(table, side)
-        depth = get_length(table, "long" if side == "short" else "short")
-        name = (
-            lazy_gettext("{name}, short side", name=lazy_gettext(name))
-            if side == "short"
-            else lazy_gettext("{name}, long side", name=lazy_gettext(name))
-        )
-    return TwoLayerBlock(width, depth, upper_height, lower_height, upper_mass, lower_mass, name)
+        return TwoLayerBlock(width, depth, upper_height, lower_height, upper_mass, lower_mass, name)
+    if side not in ("short", "long"):
+        raise BodyError("{name}: side must be short or long, found {side!r}", name=name, side=side)
+    width = get_length(table, side)
+    depth = get_length(table, "long" if side == "short" else "short")
+    name = (
+        lazy_gettext("{name}, short side", name=lazy_gettext(name))
+        if side == "short"
+        else lazy_gettext("{name}, long side", name=lazy_gettext(name))
+    )
+    return TwoLayerBlock(width, depth, upper_height, lower_height, upper_mass, lower_mass, name, side)
 
 
 def contact_from_table(table: Mapping[str, Any]) -> Mapping[str, float]:
@@ -265,6 +268,11 @@ def contact_from_table(table: Mapping[str, Any]) -> Mapping[str, float]:
     values = get_subtable(table, "contact")
     check_keys(values, _CONTACT_KEYS)
     return {key: value for key in _CONTACT_KEYS if (value := get_number(values, key)) is not None}
+
+
+def base_from_table(table: Mapping[str, Any]) -> dict[str, float]:
+    """Return height of the base above the ground and length of the tenons, m, of a preset (``drop``, ``tenon``), as far as it has them."""
+    return {key: get_length(table, key) for key in ("drop", "tenon") if key in table}
 
 
 def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import os
-import re
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -18,8 +17,8 @@ import click
 from click.shell_completion import CompletionItem
 
 from seisblock import __version__
-from seisblock.cli.command import english_help_option, lang_option
-from seisblock.cli.console import kernel_messages, reset_warnings
+from seisblock.cli.command import docstring, english_help_option, lang_option
+from seisblock.cli.console import kernel_messages, reset_warnings, with_option_names
 from seisblock.cli.help import Context, help_rows
 from seisblock.cli.locale import use_cli_locale
 from seisblock.cli.process import TERMINATED, Terminated, discard_stdout, fast_exit, graceful_exit, safe_streams
@@ -34,17 +33,22 @@ from seisblock.core.registry import solver_names
 GROUPS: dict[str, dict[str, str]] = {
     N_("Answers"): {
         "respond": N_("Full response: rest, sliding, rocking, flight, overturning."),
+        "scenario": N_("Objects that fall or move in a scenario: JMA intensity, PGA and PGV, or records."),
+        "secure": N_("Width, height, ballast, friction or restraint that makes an object safe."),
         "report": N_("HTML report of a record and the response of bodies."),
+        "app": N_("Local page in the browser: objects, surveys, collections, maps of stations."),
     },
     N_("Models"): {
         "slide": N_("Sliding on a level or sloping base, with Coulomb friction."),
         "rock": N_("Rocking and overturning of one block, with margins."),
         "jump": N_("Rocking, impact and jump of a two-layer block."),
         "uplift": N_("Uplift of a block on corner springs: records and harmonic motion."),
+        "rigid3d": N_("One block or scan in three dimensions, with twist and direction of fall."),
         "stack": N_("Pile of stones in three dimensions: gravestones, lanterns, columns."),
     },
     N_("Records"): {
         "measure": N_("Intensity measures of a record: peaks, frequencies, durations, JMA intensity."),
+        "fetch": N_("Records of an earthquake or a station from FDSN data centers."),
         "samples": N_("Bundled records and bodies: list or copy."),
     },
     N_("Surveys"): {
@@ -62,6 +66,7 @@ GROUPS: dict[str, dict[str, str]] = {
     },
     N_("Evidence"): {
         "criteria": N_("Closed-form overturning criteria compared with the simulated outcome."),
+        "paper": N_("Figures and tables of the papers, on their data or your own."),
         "validate": N_("Numbers printed in the papers compared with the computed ones."),
         "cite": N_("References of a command, as text or BibTeX."),
     },
@@ -85,31 +90,21 @@ def _command_groups() -> dict[str, dict[str, str]]:
 
 def _solver_summary(name: str) -> str:
     """Return the first line of the docstring of a solver's package."""
-    return (importlib.import_module(f"seisblock.models.{name}").__doc__ or "").partition("\n")[0]
+    return (docstring(importlib.import_module(f"seisblock.models.{name}")) or "").partition("\n")[0]
 
 
 COMMAND_GROUPS = _command_groups()
 COMMANDS = {name: text for commands in COMMAND_GROUPS.values() for name, text in commands.items()}
 """One-line help by command."""
 
-EXAMPLES = ("seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.png")
+EXAMPLES = ("seisblock respond --block gravestone", "seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.png")
 """Example lines at the end of the help."""
-
-PARAMETER = re.compile(r"`(\w+)`")
-"""Parameter name in a message of the library."""
 
 COMPLETION_VARIABLE = "_SEISBLOCK_COMPLETE"
 """Environment variable that a shell sets to request completions."""
 
 INTERRUPTED = 130
 BROKEN_PIPE = 141
-
-
-def with_option_names(text: str, ctx: click.Context) -> str:
-    """Return a message with parameter names (`` `dt` ``) replaced by the command's option names (``--dt``)."""
-    command = main.get_command(ctx, ctx.invoked_subcommand) if ctx.invoked_subcommand else None
-    names = {parameter.name: parameter.opts[0] for parameter in command.params if isinstance(parameter, click.Option)} if command else {}
-    return PARAMETER.sub(lambda match: names.get(match[1], match[1]), text)
 
 
 def _report_interrupt() -> None:
@@ -208,7 +203,8 @@ class SeisblockGroup(click.Group):
                 sys.stdout.flush()
                 return result
         except SeisblockError as error:
-            text = add_suggestion(with_option_names(gettext(error.message), ctx), error.message)
+            command = main.get_command(ctx, ctx.invoked_subcommand) if ctx.invoked_subcommand else None
+            text = add_suggestion(with_option_names(gettext(error.message), command), error.message)
             click.secho(f"seisblock: {truncate(escape_control(text))}", fg="red", err=True)
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
@@ -243,6 +239,8 @@ def main() -> None:
     """
 
 
+if main.help is None and main.callback is not None:
+    main.help = docstring(main.callback)
 main.params.append(lang_option())
 
 __all__ = ["COMMANDS", "main"]

@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING, Any
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source
+from seisblock.core.i18n import N_
 from seisblock.records.motion import ALL_AZIMUTHS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from seisblock.bodies.block import Block
+    from seisblock.cli.bodies.block import BodyChoice
     from seisblock.core.results import Response
     from seisblock.records import Motion, Record
 
@@ -39,16 +42,37 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
         return
     for record in load_records(replace(source, component=())):
         results = solve(record)
-        info("worst of {count} azimuths: {azimuth:g} degrees", count=len(results), azimuth=results[0].azimuth_deg)
+        text = N_("worst of {count} azimuths: {azimuth:g} degrees")
+        if not any(result.moves for result in results):
+            # no worst one: the first azimuth stands for all, the one with the largest peak
+            results = sorted(results, key=lambda result: -_peak(record, result.azimuth_deg))
+            text = N_("no motion in any of {count} azimuths; largest PGA at {azimuth:g} degrees")
+        info(text, count=len(results), azimuth=results[0].azimuth_deg)
         yield motion_of(record, f"{results[0].azimuth_deg:g}"), results
 
 
-def azimuth_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure] | None:
-    """Return a function that draws the azimuth sweep, None without a sweep."""
-    if not any("directions" in extra for extra in extras):
-        return None
+def _peak(record: Record, azimuth: float) -> float:
+    """Return the PGA in an azimuth, m/s^2."""
+    from seisblock.records import motion_of
+
+    return float(abs(motion_of(record, f"{azimuth:g}").horizontal).max())
+
+
+def sweep_block(choice: BodyChoice, motion: Motion, directions: Sequence[Any]) -> Block:
+    """Return the block of a motion; in a sweep its base is projected on the worst azimuth."""
+    return choice.body.block_toward(directions[0].azimuth_deg) if directions else choice.block_for_motion(motion)
+
+
+def assessed_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure]:
+    """Return a function that draws the azimuth sweep, or the time histories with the overturning probabilities."""
 
     def draw() -> Figure:
+        if not any("directions" in extra for extra in extras):
+            from seisblock.output.figures.solver import response_figure
+
+            assessments = [extra.get("assessment") for extra in extras]
+            probabilities = [None if item is None else item.assessment.overturning_probability for item in assessments]
+            return response_figure(responses, gal=gal, probabilities=probabilities)
         from seisblock.report.figures.azimuths import figure
 
         return figure(responses, [extra["directions"] for extra in extras], gal=gal)

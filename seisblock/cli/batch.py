@@ -10,7 +10,7 @@ import click
 from seisblock.cli import shell_completion
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.options import Source, record_options
+from seisblock.cli.options import Source, excel_option, record_options
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import MU, Count
 from seisblock.cli.verbosity import quiet_output
@@ -57,6 +57,7 @@ from seisblock.core.registry import solver_names
     metavar="FILE",
     help="Write the table (.csv or .parquet): one row for each record, component and body.",
 )
+@excel_option
 @option("--resume", is_flag=True, section="Output", help="Continue an interrupted table; finished records are kept.")
 @option("--force", is_flag=True, section="Output", help="Start again and replace an existing table.")
 @option("--workers", type=click.IntRange(1, 1024), metavar="N", help="Number of threads. [default: number of cores]")
@@ -77,6 +78,7 @@ def batch(
     workers: int | None,
     cluster: str | None,
     as_json: bool,
+    excel: bool,
     quiet: bool,
     runs: int,
     seed: int,
@@ -101,4 +103,5 @@ def batch(
             workers=workers,
             cluster=cluster,
             as_json=as_json,
+            excel=excel,
         )

@@ -1,4 +1,4 @@
-"""``seisblock body``: rigid-body properties of a 3-D scan."""
+"""``seisblock body``: rigid-body properties of a 3-D scan, or the file of a body of a kind."""
 
 from __future__ import annotations
 
@@ -8,17 +8,21 @@ from typing import Any
 import click
 
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
+from seisblock.bodies.kinds import KINDS, kind_to_toml
 from seisblock.cli import shell_completion
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, argument, option
-from seisblock.cli.console import info
+from seisblock.cli.console import info, print_result
+from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import check_callback, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import INSET, LENGTH
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.errors import OutputError
+from seisblock.core.i18n import gettext
 from seisblock.core.units import LENGTH_UNITS
 
 _positive, _finite = check_callback(checks.positive), check_callback(checks.finite)
@@ -31,15 +35,25 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     examples=(
         "seisblock body boulder.ply --inset 10mm --out rock.toml --plot rock.png",
         "seisblock rock --block rock.toml --component EW",
+        "seisblock body --kind gravestone --width 8sun --height 72cm --out stone.toml",
     ),
 )
 @argument(
     "scan",
-    metavar="SCAN",
+    required=False,
+    metavar="[SCAN]",
     section="Body",
     shell_complete=shell_completion.complete_scans,
     help="Closed triangle mesh: .stl, .ply or .obj file, or the bundled boulder.ply.",
 )
+@option(
+    "--kind",
+    type=SuggestingChoice(KINDS),
+    section="Body",
+    help="Without a scan: print the file of a body of this kind with the prior of its edges; edit it to replace the prior.",
+)
+@option("--width", type=LENGTH, section="Body", help="--kind: width of the base along the motion, m or with a unit.")
+@option("--height", type=LENGTH, section="Body", help="--kind: height, m or with a unit.")
 @option(
     "--density",
     type=float,
@@ -102,7 +116,10 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
 @output_options(histories=False, film=False)
 def body(
     output: OutputOptions,
-    scan: str,
+    scan: str | None,
+    kind: str | None,
+    width: float | None,
+    height: float | None,
     density: float,
     inset: EdgeWear | None,
     tolerance: float | None,
@@ -119,11 +136,14 @@ def body(
     The surface must be closed. The body is placed on level ground in the stable pose nearest to the position of the scan. Its support
     polygon is the convex hull of the points within --tolerance of the ground; --inset moves each side of the polygon inwards. The
     file of --out serves rock, respond, criteria, batch and fit as a body, with the arms of the azimuth under analysis.
+
+    Without a scan, --kind, --width and --height give the file of a body of a kind.
     """
+    _check_subject(scan, kind, width, height)
     from seisblock.bodies.scan.azimuths import scan_azimuths
     from seisblock.bodies.scan.scan import scan_body
     from seisblock.bodies.scan.toml import scan_to_toml
-    from seisblock.report.io.atomic import check_target, write_text
+    from seisblock.output.io.atomic import check_target, write_text
     from seisblock.report.json.body import document
     from seisblock.report.text import body as text_output
 
@@ -131,6 +151,15 @@ def body(
         if out.suffix.lower() != ".toml":
             raise OutputError("{path}: a body file must end in .toml", path=out)
         check_target(out)
+    if kind is not None and width is not None and height is not None:
+        text = kind_to_toml(kind, width, height)
+        if out is None:
+            print_result(text.rstrip())
+        else:
+            write_text(out, text)
+            info("wrote {path}", path=out)
+        return
+    assert scan is not None
     with progress("reading {names}", names=[Path(scan).name]):
         edge_wear = SHARP_EDGES if inset is None else inset
         scan_result = scan_body(
@@ -147,6 +176,20 @@ def body(
         csv=lambda path: text_output.write_csv(path, directions),
         figure=lambda: _draw(scan_result),
     )
+
+
+def _check_subject(scan: str | None, kind: str | None, width: float | None, height: float | None) -> None:
+    """Raise an error unless there is either a scan, or a kind with its sizes."""
+    if kind is None:
+        reject_without("--kind", ["width", "height"])
+        if scan is None:
+            raise click.UsageError(gettext("give SCAN, or --kind with --width and --height"))
+    elif scan is not None:
+        raise click.UsageError(gettext("SCAN and --kind exclude each other: give only one of them"))
+    elif width is None or height is None:
+        raise click.UsageError(gettext("--kind requires --width and --height"))
+    else:
+        reject_with("--kind", ["density", "inset", "tolerance", "unit", "up", "facing", "name", "step", "gravity"])
 
 
 def _draw(scan_result: Any) -> Any:

@@ -24,8 +24,8 @@ def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
     keys = command_papers(command) if command else tuple(REFERENCES)
     references = [*(REFERENCES[key] for key in keys), SOFTWARE]
     if as_json:
+        from seisblock.output.json.encode import to_json
         from seisblock.report.json.citations import cite_document
-        from seisblock.report.json.encode import to_json
 
         print_result(to_json(cite_document(command, references, keys)))
     elif bibtex:

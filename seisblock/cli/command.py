@@ -2,20 +2,73 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
 import math
+import textwrap
+import tomllib
 from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import click
 
 from seisblock.cli.help import Context, help_rows
-from seisblock.cli.option_file import read_option_file
-from seisblock.cli.suggest import SuggestingChoice, suggest_options
+from seisblock.cli.suggest import SuggestingChoice, closest_name, did_you_mean, suggest_options
 from seisblock.core import checks
-from seisblock.core.errors import ParameterError
+from seisblock.core.errors import ParameterError, os_error_text
 from seisblock.core.i18n import LANGUAGES, N_, gettext
+
+SHARED_NAMES = ("help", "help_all", "options", "lang")
+"""Options that a file cannot hold."""
+
+
+def read_option_file(path: Path, command: click.Command) -> dict[str, Any]:
+    """Return the options of a file by parameter name, for click's ``default_map``.
+
+    The file holds names of options with or without dashes, at its top or in a table of the command's name. Lists stand for repeated
+    options, or for a list of values.
+
+    Raises
+    ------
+    click.UsageError
+        If the file cannot be read, or holds an unknown option.
+    """
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        reason = os_error_text(error) if isinstance(error, OSError) else str(error)
+        raise click.UsageError(gettext("cannot read --options {file}: {error}", file=str(path), error=reason)) from None
+    section = table.get(command.name or "")
+    values = section if isinstance(section, dict) else table
+    parameters = {
+        name.lstrip("-"): parameter
+        for parameter in command.params
+        if isinstance(parameter, click.Option) and parameter.name not in SHARED_NAMES
+        for name in (*parameter.opts, *parameter.secondary_opts)
+    }
+    options: dict[str, Any] = {}
+    for key, value in values.items():
+        name = key.replace("_", "-")
+        if name not in parameters:
+            text = gettext("{file}: {command} has no option {name}", file=str(path), command=command.name, name=f"--{name}")
+            raise click.UsageError(did_you_mean(text, closest_name(name, parameters)))
+        parameter = parameters[name]
+        switch_off = f"--{name}" in parameter.secondary_opts
+        options[parameter.name or name] = not value if switch_off else _value(parameter, value)
+    return options
+
+
+def _value(parameter: click.Option, value: Any) -> Any:
+    """Return a value of TOML as click takes it."""
+    if parameter.multiple:
+        return [str(item) for item in value] if isinstance(value, list) else [str(value)]
+    if isinstance(value, list):
+        return ",".join(map(str, value))
+    return value if isinstance(value, (bool, str)) else str(value)
+
 
 SECTIONS = (
     N_("Record options"),
@@ -76,6 +129,15 @@ class Argument(click.Argument):
         return self.make_metavar(ctx), self.help or ""
 
 
+def docstring(target: ModuleType | Callable[..., Any]) -> str | None:
+    """Return the docstring of a module or function, from its source where ``python -OO`` has removed it."""
+    if target.__doc__ is not None:
+        return target.__doc__
+    tree = ast.parse(textwrap.dedent(inspect.getsource(target if isinstance(target, ModuleType) else inspect.unwrap(target))))
+    node = tree if isinstance(target, ModuleType) else tree.body[0]
+    return ast.get_docstring(node) if isinstance(node, ast.Module | ast.FunctionDef) else None
+
+
 class Command(click.Command):
     """Command with options grouped into sections and examples at the end of the help.
 
@@ -92,6 +154,8 @@ class Command(click.Command):
     def __init__(self, *args: Any, examples: Sequence[str] = (), essential: Sequence[str] = (), **kwargs: Any) -> None:
         self.examples, self.essential = tuple(examples), frozenset(essential)
         super().__init__(*args, **kwargs)
+        if self.help is None and self.callback is not None:
+            self.help = docstring(self.callback)
         self.params.append(lang_option())
         if essential:
             self.params += [_option_file_option(), _help_all_option()]
@@ -132,7 +196,8 @@ class Command(click.Command):
         if self.essential and HELP_ALL not in ctx.meta:
             parameters = [parameter for parameter in parameters if self._is_essential(parameter)]
         for parameter, row in help_rows(parameters, ctx):
-            groups[f"{getattr(parameter, 'section', 'Other')} options"].append(row)
+            # click's own --help stands beside --help-all
+            groups[f"{getattr(parameter, 'section', 'Output')} options"].append(row)
         for name, rows in groups.items():
             if rows:
                 with formatter.section(gettext(name)):

@@ -12,7 +12,7 @@ from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
-from seisblock.cli.options import Source, output_options, record_options
+from seisblock.cli.options import Source, output_options, peak_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.types import MU
@@ -21,10 +21,15 @@ from seisblock.models.rock.options import RockOptions
 
 @click.command(
     cls=Command,
-    essential=("--width", "--height", "--inset", "--kind", "--block", "--mu", "--vertical"),
-    examples=("seisblock criteria --width 24cm --height 72cm", "seisblock criteria record.csv --block gravestone --json"),
+    essential=("--width", "--height", "--inset", "--kind", "--block", "--mu", "--vertical", "--pga", "--pgv", "--frequency"),
+    examples=(
+        "seisblock criteria --width 24cm --height 72cm",
+        "seisblock criteria record.csv --block gravestone --json",
+        "seisblock criteria --pga 400 --pgv 40 --width 24cm --height 72cm",
+    ),
 )
 @record_options
+@peak_options
 @block_options
 @solver_options(RockOptions, "restitution", "linear", "vertical")
 @azimuth_option
@@ -53,21 +58,30 @@ def criteria(
 
     A criterion predicts overturning when the demand (PGA or PGV of the record) exceeds its threshold. Criteria that need a frequency
     take the equivalent frequency of the record in each of its three definitions. The simulated outcome is that of respond: sliding,
-    rocking and flight under all components.
+    rocking and flight under all components. --pga with --pgv or --frequency gives the closed forms without a record.
     """
     from seisblock.bodies.factory import table_friction
     from seisblock.bodies.toml import read_body_toml
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.load_records import load_records, selected_components
+    from seisblock.cli.peaks import parse_peaks, write_peaks
     from seisblock.cli.write_results import write_results
     from seisblock.records import motion_of
     from seisblock.records._validation import vertical_acts
-    from seisblock.report.json.criteria import document
+    from seisblock.report.json.criteria import CRITERIA_PEAKS, document
+    from seisblock.report.json.peaks import document as peak_document
     from seisblock.report.text import criteria as text_output
     from seisblock.studies.criteria_comparison import compare_criteria
+    from seisblock.studies.scenario.peaks import assess_peaks
 
+    peaks = parse_peaks(source, body, ["azimuth", "restitution", "linear", "vertical", "mu", "mu_kinetic"])
     choice = choose_block({**body, "restitution": restitution, "gal": output.gal})
     info("body: {says}", says=choice.description)
+    if peaks is not None:
+        options = RockOptions(gravity=gravity)
+        result = assess_peaks(choice.block, *peaks, options=options)
+        write_peaks(result, peak_document(result, CRITERIA_PEAKS, options), output)
+        return
     source = with_azimuths(source, azimuth)
     if mu is None and body.get("block"):
         mu, kinetic_default = table_friction(read_body_toml(body["block"]), body["block"])

@@ -161,7 +161,7 @@ def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> 
         return fit_figure(result, Path(outcomes).name, gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.report.io.atomic import write_table
+        from seisblock.output.io.atomic import write_table
 
         write_table(path, *text_output.csv_columns(result, observed))
 
@@ -171,7 +171,6 @@ def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> 
 def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
     from seisblock.cli.load_records import check_single_window, make_preparation
     from seisblock.cli.progress import progress
-    from seisblock.readers.options import ReadOptions
     from seisblock.studies.fit.outcome_table import read_outcomes
 
     check_single_window(source)
@@ -185,7 +184,7 @@ def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
             kind=kind,
             component=source.component[0] if source.component else None,
             preparation=make_preparation(source, source.component),
-            read_options=ReadOptions(source.format, source.units, source.dt, source.station, source.level),
+            read_options=source.read_options(),
             strict=source.strict,
             progress=advance,
         )

@@ -88,16 +88,18 @@ METHODS = ("stripes", "ida", "cloud")
 @option(
     "--im",
     multiple=True,
-    metavar="pga|pgv|pgd|sa=T|arias|p*pgv",
-    help="Intensity measure of the component under analysis (T in s; p*pgv: p PGV/g, a ratio); further measures, repeated or "
-    "separated by commas, are compared with the first. [default: pga]",
+    metavar="pga|pgv|pgd|sa:T|rotd50:T|rotd100:T|arias|cav|p*pgv|jma",
+    help="Intensity measure of the component under analysis (T in s; p*pgv: p PGV/g, a ratio), or of the whole record (jma: three "
+    "components; rotd50:T, rotd100:T: both horizontals); further measures, repeated or separated by commas, are compared with the first. "
+    "[default: pga]",
 )
 @option("--method", type=click.Choice(METHODS), default="stripes", show_default=True, help="Method of analysis.")
 @option(
     "--levels",
     type=FLOATS,
     metavar="X[,X...]|X0:X1:STEP",
-    help="Intensity levels: gal (pga, sa), kine (pgv), cm (pgd), m/s (arias), a ratio (p*pgv). [default: from a search]",
+    help="Intensity levels: gal (pga, sa, rotd50, rotd100), kine (pgv), cm (pgd), m/s (arias, cav), a ratio (p*pgv), intensity (jma). "
+    "[default: from a search]",
 )
 @option(
     "--steps",

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 import click
 
 from seisblock.core.i18n import gettext
-from seisblock.report.text.wrap import is_wide, wrap_text
+from seisblock.output.text.wrap import is_wide, wrap_text
 
 CLICK_SUFFIX = re.compile(r"  \[([^\[\]]*)\]\Z")
 """Default appended by click to a help text; full-width brackets replace it in Japanese."""

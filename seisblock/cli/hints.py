@@ -10,7 +10,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.cli.options import Source
 from seisblock.core.i18n import gettext
-from seisblock.report.text.tables import styled_line
+from seisblock.output.text.tables import styled_line
 
 LENGTH_PLACEHOLDER = "LENGTH"
 """Placeholder for a length that the user has to enter."""
@@ -21,6 +21,7 @@ def respond_command(source: Source, *words: str) -> str:
     values = {
         "--scale": source.scale,
         "--target-pga": source.target_pga,
+        "--target-jma": source.target_jma,
         "--highpass": source.highpass,
         "--floor": source.floor and source.floor.spec,
         "--format": source.format,
@@ -28,11 +29,15 @@ def respond_command(source: Source, *words: str) -> str:
         "--dt": source.dt,
         "--station": source.station,
         "--level": source.level,
+        "--location": source.location,
+        "--inventory": source.inventory,
+        "--response": None if source.response == "sensitivity" else source.response,
+        "--event": source.event,
     }
     options = [word for name, value in values.items() if value is not None for word in (name, str(value))]
     options += [word for window in source.window for word in ("--window", ":".join("" if end is None else f"{end:g}" for end in window))]
     options += [] if source.demean is None else ["--demean" if source.demean else "--no-demean"]
-    options += ["--strict"] * source.strict
+    options += ["--differentiate"] * source.differentiate + ["--strict"] * source.strict
     return shlex.join(
         ["seisblock", "respond", *source.record, *(w for c in source.component for w in ("--component", c)), *options, *words]
     )
@@ -41,6 +46,8 @@ def respond_command(source: Source, *words: str) -> str:
 def _size_options(block: Block) -> list[str]:
     """Return the size options of a block; sizes that follow from others are omitted."""
     words = ["--width", f"{block.width:.6g}", "--height", f"{block.height:.6g}"]
+    if block.depth is not None:
+        words += ["--depth", f"{block.depth:.6g}"]
     if block.centroid_height is not None:
         words += ["--centroid-height", f"{block.centroid_height:.6g}"]
     if block.centroid_offset:
@@ -53,7 +60,7 @@ def _size_options(block: Block) -> list[str]:
 
 
 def jump_hint(
-    source: Source, params: Mapping[str, Any], default: str, block: TwoLayerBlock, contact: Contact, tenon: float | None
+    source: Source, params: Mapping[str, Any], default: str, block: TwoLayerBlock, contact: Contact, tenon: float
 ) -> Iterator[Any]:
     """Yield the ``respond`` command line for the two-layer block, with friction and tenons."""
     by_name = params.get("width") is None
@@ -61,8 +68,8 @@ def jump_hint(
         ["--block", params.get("block") or default, "--side", params.get("side") or "short"] if by_name else _size_options(block.as_block())
     )
     words = [*body, "--mu", f"{contact.mu:g}", "--mu-kinetic", f"{contact.kinetic:g}", "--restitution", f"{contact.restitution_y:g}"]
-    command = respond_command(source, *words, "--tenon", LENGTH_PLACEHOLDER if tenon is None else f"{tenon:g}")
-    if tenon is None:
+    command = respond_command(source, *words, "--tenon", f"{tenon:g}" if tenon else LENGTH_PLACEHOLDER)
+    if not tenon:
         text = gettext("Full response with friction and tenons (tenon length required): {typed}", typed=command)
     else:
         text = gettext("Full response with friction and tenons: {typed}", typed=command)

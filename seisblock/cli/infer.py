@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from seisblock.bodies.edge_wear import DEFAULT_WEAR
+from seisblock.bodies.kinds import KINDS
 from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import side_option, two_layer_option
 from seisblock.cli.build import gravity_option
@@ -26,23 +27,28 @@ from seisblock.core.limits import MAX_RUNS
 from seisblock.models.jump.options import LANDINGS
 
 DEFAULT_BLOCK = "chozusha"
-FORM_NAMES = N_("--cemetery (with --rate, or with a column fallen), --slid or --jumped")
+FORM_NAMES = N_("--cemetery (with --rate, or with a column fallen), --slid, --jumped or --twist")
 
-STONE_OPTIONS = ("frequency", "criterion", "inset", "confidence", "common_error", "stone_error", "bias", "frequency_error")
+STONE_OPTIONS = ("frequency", "criterion", "inset", "confidence", "common_error", "stone_error", "bias", "frequency_error", "stones")
 SLID_OPTIONS = ("mu", "mu_kinetic", "largest", "vertical", "limit", "steps", "gravity")
 JUMPED_OPTIONS = (
     *("block", "side", "mu", "mu_kinetic", "restitution_x", "restitution_y", "drop", "flight_only", "first", "repeat", "landing", "spin"),
     *("limit", "steps", "gravity"),
+)
+TWIST_OPTIONS = (
+    *("block", "width", "height", "depth", "kind", "mu", "inset", "vertical", "displacement", "runs", "seed", "confidence"),
+    *("limit", "gravity"),
 )
 """Options of each form of the command."""
 
 
 @click.command(
     cls=Command,
-    essential=("--cemetery", "--rate", "--slid", "--jumped", "--mu", "--frequency", "--criterion", "--inset"),
+    essential=("--cemetery", "--rate", "--slid", "--jumped", "--twist", "--mu", "--frequency", "--criterion", "--inset"),
     examples=(
         "seisblock infer --rate 35/100 --cemetery aoyama.csv --plot shaking.png",
         "seisblock infer --slid 5cm --mu 0.3 record.csv",
+        "seisblock infer --twist 8 --displacement 2cm --width 24cm --height 60cm --mu 0.5 record.csv",
     ),
 )
 @displaced_record_options
@@ -52,13 +58,28 @@ JUMPED_OPTIONS = (
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_cemeteries,
     section="Body",
-    help="CSV of gravestones; column fallen: 1, yes, 転倒 (overturned) or 0, no, 残存 (standing). Several surveys of one earthquake: "
-    "repeat the option.",
+    help="Table of gravestones (.csv, .xlsx); column fallen: 1, yes, 転倒 (overturned) or 0, no, 残存 (standing). Several surveys of one "
+    "earthquake: repeat the option.",
+)
+@option(
+    "--stones",
+    type=click.Path(path_type=Path),
+    metavar="FILE.csv",
+    section="Output",
+    help="Write the result of each stone: threshold, probability, computed and observed overturning (CSV that Excel opens).",
 )
 @option("--rate", metavar="K/N", section="Body", help="Count: K of N stones overturned; proportions of the stones as in --cemetery.")
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="Displacement of an object that slid, m or with a unit; needs --mu.")
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="Displacement of a two-layer block that jumped, m or with a unit.")
-@two_layer_option(f"--jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
+@option("--twist", type=float, metavar="DEG", section="Body", help="Residual rotation of an object about the vertical, degrees.")
+@option(
+    "--displacement", type=LENGTH, metavar="M", section="Body", help="--twist: residual displacement of the same object, m or with a unit."
+)
+@two_layer_option(f"--jumped, --twist: bundled body or TOML file. [default: --jumped: {DEFAULT_BLOCK}]")
+@option("--width", type=LENGTH, section="Body", help="--twist: width along the component, m or with a unit.")
+@option("--height", type=LENGTH, section="Body", help="--twist: height, m or with a unit.")
+@option("--depth", type=LENGTH, section="Body", help="--twist: depth, m or with a unit. [default: as the width]")
+@option("--kind", type=SuggestingChoice(KINDS), section="Body", help="--twist: kind of a body given by its sizes. [default: block]")
 @side_option("--jumped: side of the block in plan along the motion.")
 @option(
     "--mu",
@@ -81,9 +102,8 @@ JUMPED_OPTIONS = (
 @option(
     "--drop",
     type=LENGTH,
-    default=0.0,
     section="Body",
-    help="--jumped: height of the floor above the ground, m or with a unit. [default: 0]",
+    help="--jumped: height of the floor above the ground, m or with a unit. [default: value of the body, else 0]",
 )
 @option(
     "--frequency",
@@ -102,26 +122,26 @@ JUMPED_OPTIONS = (
     "--inset",
     type=INSET,
     metavar="SHARE|M",
-    help="Stones, rigid: inset of worn edges from each side, share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.05]",
+    help="Stones, rigid, --twist: inset of worn edges per side, share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.05]",
 )
-@option("--confidence", type=float, default=0.9, show_default=True, help="Stones: confidence level of the intervals, 0 to 1.")
+@option("--confidence", type=float, default=0.9, show_default=True, help="Stones, --twist: confidence level of the intervals, 0 to 1.")
 @option(
     "--common-error",
     type=float,
-    help="Stones: standard deviation of ln PGA common to all stones (criterion, ground, record). [default: 0.3; 0.29 with --inset]",
+    help="Stones: standard deviation of ln PGA common to all stones (criterion, ground, record). [default: 0.24; 0.22 with --inset]",
 )
 @option("--stone-error", type=float, default=0.2, show_default=True, help="Stones: standard deviation of ln PGA of a single stone.")
 @option(
     "--bias",
     type=float,
-    help="Stones: bias of the criterion, ln PGA of records over ln PGA of the criterion. [default: 0.33; 0.52 - 2.9 --inset; rigid: 0]",
+    help="Stones: bias of the criterion, ln PGA of records over ln PGA of the criterion. [default: 0.35; 0.51 - 3.2 --inset; rigid: 0]",
 )
 @option("--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of the given frequency.")
 @option("--largest", is_flag=True, help="--slid: the maximum displacement was observed, not the residual.")
 @option(
     "--vertical/--no-vertical",
     default=None,
-    help="--slid: apply or omit the vertical component. [default: applied where the record has one]",
+    help="--slid, --twist: apply or omit the vertical component. [default: applied where the record has one]",
 )
 @option("--flight-only", is_flag=True, help="--jumped: the jump alone was observed, without the slide-rocking after it.")
 @option("--first", is_flag=True, help="--jumped: use only the first chain of motion in the record. [default: sum of all]")
@@ -136,7 +156,7 @@ JUMPED_OPTIONS = (
 @option(
     "--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="--jumped: angular velocity after the impact."
 )
-@option("--limit", type=float, default=3.0, show_default=True, help="--slid, --jumped: largest scale factor on a record.")
+@option("--limit", type=float, default=3.0, show_default=True, help="--slid, --jumped, --twist: largest scale factor on a record.")
 @option(
     "--steps",
     type=Count(N_("factors"), MAX_RUNS),
@@ -144,15 +164,25 @@ JUMPED_OPTIONS = (
     show_default=True,
     help="--slid, --jumped: number of factors in the scan.",
 )
+@option(
+    "--runs",
+    type=Count(N_("runs"), MAX_RUNS, minimum=1),
+    default=600,
+    show_default=True,
+    help="--twist: runs per record, of factors and bodies drawn at random.",
+)
+@option("--seed", type=int, default=0, show_default=True, help="--twist: seed of the runs.")
 @gravity_option
 @output_options(histories=False, film=False)
 def infer(source: Source, output: OutputOptions, cemetery: tuple[str, ...], rate: str | None, **params: Any) -> None:
     """Ground motion estimated from its effects: fallen gravestones or a displaced object.
 
     Gravestones give PGA, PGV and JMA intensity with their intervals, for one equivalent frequency or over 0.5 to 3 Hz (inverse of
-    Furukawa et al. 2009). A displacement gives, for each candidate RECORD, all scale factors that reproduce it.
+    Furukawa et al. 2009). A displacement gives, for each candidate RECORD, all scale factors that reproduce it. A residual twist, with
+    or without the displacement, gives the interval of factors from runs in three dimensions; several RECORDs are candidates of one
+    station, whose PGA follows.
     """
-    forms = {"--cemetery": cemetery or None, "--slid": params["slid"], "--jumped": params["jumped"]}
+    forms = {"--cemetery": cemetery or None, "--slid": params["slid"], "--jumped": params["jumped"], "--twist": params["twist"]}
     given_forms = [name for name, value in forms.items() if value is not None]
     if len(given_forms) != 1:
         raise click.UsageError(
@@ -164,6 +194,8 @@ def infer(source: Source, output: OutputOptions, cemetery: tuple[str, ...], rate
     if not cemetery:
         if rate is not None:
             raise click.UsageError(gettext("--rate requires --cemetery (proportions of the stones), for example aoyama.csv"))
+        if params["twist"] is not None:
+            return _infer_from_twist(source, output, params)
         return _infer_from_displacement(source, output, params)
     if source.record:
         raise click.UsageError(
@@ -178,20 +210,28 @@ def infer(source: Source, output: OutputOptions, cemetery: tuple[str, ...], rate
 
 def _foreign_options(form: str, *, rigid: bool) -> list[str]:
     """Return the options of the other forms; gravity acts on rigid stones."""
-    form_options = {"--cemetery": (*STONE_OPTIONS, *(["gravity"] if rigid else [])), "--slid": SLID_OPTIONS, "--jumped": JUMPED_OPTIONS}
-    all_options = dict.fromkeys(name for names in (STONE_OPTIONS, SLID_OPTIONS, JUMPED_OPTIONS) for name in names)
+    form_options = {
+        "--cemetery": (*STONE_OPTIONS, *(["gravity"] if rigid else [])),
+        "--slid": SLID_OPTIONS,
+        "--jumped": JUMPED_OPTIONS,
+        "--twist": TWIST_OPTIONS,
+    }
+    all_options = dict.fromkeys(name for names in (STONE_OPTIONS, SLID_OPTIONS, JUMPED_OPTIONS, TWIST_OPTIONS) for name in names)
     return [name for name in all_options if name not in form_options[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
 
 
 def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
     from seisblock.bodies.cemetery.table import read_cemetery
-    from seisblock.report.json.infer import StonesParameters, stones_document
+    from seisblock.report.json.infer import INTENSITY_OF_STONES, INTENSITY_OF_VELOCITY, StonesParameters, stones_document
+    from seisblock.report.text.stones import PLACE_COLUMNS, check_stones_file, write_stones
     from seisblock.studies.survey.consistency import consistency_warning
-    from seisblock.studies.survey.estimate import estimate_shaking, estimate_warnings, frequency_contour, stone_groups
+    from seisblock.studies.survey.estimate import estimate_shaking, estimate_warnings, fitted_stones, frequency_contour, stone_groups
     from seisblock.studies.survey.joint import joint_estimate, joint_warnings
     from seisblock.studies.survey.likelihood import counted_survey, marked_survey, parse_rate
     from seisblock.studies.survey.overturning_rate import FREQUENCIES
 
+    if params["stones"] is not None:
+        check_stones_file(params["stones"])
     places = [read_cemetery(name) for name in cemetery]
     for name, site in zip(cemetery, places, strict=True):
         for note in site.notes[:1]:
@@ -200,12 +240,13 @@ def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: s
     assumptions = _assumptions(params)
     frequencies = params["frequency"] or (None, *FREQUENCIES)
     has_several = len(surveys) > 1
-    estimates = [
-        estimate_shaking(part, f, assumptions, stones=f"{site}, {kind}" if has_several else kind)
+    answers = [
+        (estimate_shaking(part, f, assumptions, stones=f"{site}, {kind}" if has_several else kind), fitted_stones(part, f, assumptions))
         for site, survey in surveys
         for kind, part in stone_groups(survey)
         for f in frequencies
     ]
+    estimates = [estimate for estimate, _ in answers]
     joint = [joint_estimate(surveys, f, assumptions) for f in frequencies] if has_several else []
     line = frequency_contour(surveys[0][1], assumptions)
     warnings = list(dict.fromkeys(text for estimate in estimates for text in estimate_warnings(estimate)))
@@ -223,8 +264,14 @@ def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: s
         frequency_error_ln_f=assumptions.frequency_error,
         criterion=params["criterion"],
         inset=params["inset"] if params["criterion"] != "rigid" else params["inset"] or DEFAULT_WEAR,
+        intensity=INTENSITY_OF_VELOCITY if params["criterion"] == "rigid" else INTENSITY_OF_STONES,
     )
-    answer = stones_document(estimates, line, parameters, warnings, joint)
+    # all stones of each place, at the first frequency
+    at_places = [(place, fitted_stones(survey, frequencies[0], assumptions)) for place, survey in surveys]
+    answer = stones_document(answers, line, parameters, warnings, joint, at_places)
+    if params["stones"] is not None:
+        write_stones(params["stones"], PLACE_COLUMNS, [([place], stones) for place, stones in at_places])
+        info("wrote {file}", file=str(params["stones"]))
     first_survey, name = surveys[0][1], ", ".join(site.name for site in places)
 
     def tables() -> Any:
@@ -239,7 +286,7 @@ def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: s
         return estimate_figure(surveys[0][0], first_survey, assumptions, selection, gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.report.io.atomic import write_table
+        from seisblock.output.io.atomic import write_table
         from seisblock.report.text.infer import estimate_csv
 
         write_table(path, *estimate_csv(line))
@@ -296,10 +343,77 @@ def _infer_from_displacement(source: Source, output: OutputOptions, params: dict
         return factor_figure(curves, gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.report.io.atomic import write_table
+        from seisblock.output.io.atomic import write_table
         from seisblock.report.text.infer import factor_csv
 
         write_table(path, *factor_csv(curves))
+
+    write_results(answer, output, tables=tables, figure=figure, csv=csv)
+
+
+def _infer_from_twist(source: Source, output: OutputOptions, params: dict[str, Any]) -> None:
+    from itertools import islice
+
+    from seisblock.cli.bodies.free_standing import choose_free_standing
+    from seisblock.cli.load_records import load_records, selected_motions
+    from seisblock.cli.progress import progress
+    from seisblock.models.rigid3d.options import Rigid3dOptions
+    from seisblock.records._validation import vertical_acts
+    from seisblock.report.json.infer import twist_document
+    from seisblock.studies.survey.twist import infer_twist, pooled_pga
+
+    choice = choose_free_standing({**params, "side": None, "mu_kinetic": None, "gal": output.gal})
+    info("body: {says}", says=choice.description)
+    options = Rigid3dOptions(mu=choice.mu, vertical=params["vertical"], gravity=params["gravity"])
+    results, motions = [], []
+    for record in load_records(source):
+        # all components act: without --component one direction of x suffices
+        for motion in islice(selected_motions(record, source), None if source.component else 1):
+            with progress("{name}: factors up to {limit:g}", name=motion.name, limit=params["limit"]) as advance:
+                estimate = infer_twist(
+                    choice.body,
+                    motion,
+                    options,
+                    params["twist"],
+                    displacement_m=params["displacement"],
+                    limit=params["limit"],
+                    runs=params["runs"],
+                    level=params["confidence"],
+                    seed=params["seed"],
+                    progress=advance,
+                )
+            results.append((record, estimate))
+            motions.append(motion)
+    station = pooled_pga([estimate for _, estimate in results], params["confidence"]) if len(results) > 1 else None
+    answer = twist_document(
+        results,
+        station,
+        body=choice.body,
+        twist_deg=params["twist"],
+        displacement_m=params["displacement"],
+        mu=choice.mu,
+        vertical=vertical_acts(motions, params["vertical"]),
+        gravity_m_s2=params["gravity"],
+        limit=params["limit"],
+        confidence=params["confidence"],
+        seed=params["seed"],
+    )
+
+    def tables() -> Any:
+        from seisblock.report.text.infer import twist_tables
+
+        return twist_tables(results, station, level=params["confidence"], limit=params["limit"], gal=output.gal)
+
+    def figure() -> Any:
+        from seisblock.report.figures.infer import twist_figure
+
+        return twist_figure(results, gal=output.gal)
+
+    def csv(path: Path) -> None:
+        from seisblock.output.io.atomic import write_table
+        from seisblock.report.text.infer import twist_csv
+
+        write_table(path, *twist_csv(results))
 
     write_results(answer, output, tables=tables, figure=figure, csv=csv)
 
@@ -327,11 +441,12 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
     info("body: {name}; {says}", name=lazy_gettext(choice.block.name), says=choice.description)
     if params["first"]:
         info("--first: only the first chain of motion in each record counts; without --first all are added, as in seisblock jump")
+    drop = choice.base.get("drop", 0.0) if params["drop"] is None else params["drop"]
     body: dict[str, Any] = {"contact": choice.contact, "flight_only": params["flight_only"]}
     body |= {key: params[key] for key in ("spin", "landing", "first")}
     jump_options = JumpOptions(
         contact=choice.contact,
-        drop=params["drop"],
+        drop=drop,
         spin=params["spin"],
         landing=params["landing"],
         first=params["first"],
@@ -340,5 +455,5 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
     )
     displacement_function = partial(study.jump_displacement, choice.block, options=jump_options, flight_only=params["flight_only"])
     return displacement_function, partial(
-        jumped_document, block=choice.block, drop_m=params["drop"], gravity_m_s2=gravity, windows_s=source.window, **body
+        jumped_document, block=choice.block, drop_m=drop, gravity_m_s2=gravity, windows_s=source.window, **body
     )

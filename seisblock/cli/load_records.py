@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from seisblock.cli.console import always, info, warning
+from seisblock.cli.console import always, info, note_default_record, warning
 from seisblock.cli.options import Source
 from seisblock.cli.progress import progress, set_task
 from seisblock.cli.verbosity import is_quiet
 from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.core.i18n import gettext
 from seisblock.records import Motion, Preparation, Record, motion_of
 
 
@@ -35,16 +36,38 @@ def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: b
     names: tuple[str, ...] = source.record
     if not names and use_recording:
         names = (REAL_SAMPLE,)
-        info("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
+        note_default_record(REAL_SAMPLE, synthetic=False)
     elif not names:
         names = (DEFAULT_SAMPLE,)
-        info("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
+        note_default_record(DEFAULT_SAMPLE, synthetic=True)
     with progress("reading {names}", names=[Path(name).name for name in names]):
-        records = read_all(names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level)
+        records = read_all(names, **source.read_options().keywords)
         results = [_prepare(record, source, vertical_counts=vertical_counts, keep_whole=keep_whole) for record in records]
+    _report_checks(results)
     report_qc(results, strict=source.strict)
     set_task("computing")
     return results
+
+
+def _report_checks(records: list[Record]) -> None:
+    """Print what was proved and assumed of a record that the user gave, in one line."""
+    from seisblock.records.qc_report import record_checks
+    from seisblock.samples import find_sample
+
+    for record in records:
+        checks = record_checks(record)
+        # of bundled samples, the manifest tells
+        if len(records) == 1 and (checks.proved or checks.assumed) and find_sample(record.source) is None:
+            # the bare word stands for other counts, too
+            labels = {"count": gettext("sample count")}
+            proved, assumed = ([labels.get(word) or gettext(word) for word in words] for words in (checks.proved, checks.assumed))
+            none = [gettext("nothing")]
+            info(
+                "{record}: proved {proved}; assumed {assumed}",
+                record=record.station or record.source,
+                proved=proved or none,
+                assumed=assumed or none,
+            )
 
 
 def report_qc(records: list[Record], *, strict: bool) -> None:
@@ -76,6 +99,7 @@ def make_preparation(source: Source, peaks: tuple[str, ...], *, keep_whole: bool
         highpass_hz=source.highpass,
         scale=1.0 if source.scale is None else source.scale,
         target_pga=None if source.target_pga is None else source.target_pga / 100.0,
+        target_jma=source.target_jma,
         components=peaks,
         window=source.window[0] if source.window and not keep_whole else None,
         floor=source.floor,

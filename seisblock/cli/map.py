@@ -13,7 +13,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.bodies.free_standing import choose_free_standing, free_standing_options
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.console import info, warning
+from seisblock.cli.console import info, note_default_record, warning
 from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source, output_options, real_record_options
 from seisblock.cli.output import OutputOptions
@@ -60,7 +60,7 @@ DEFAULT_RUNS = 50
     type=click.Path(path_type=Path),
     metavar="FILE",
     section="Body",
-    help="CSV of surveyed cemeteries (place, latitude, longitude, stones, fallen): estimated motion beside that of the stations "
+    help="CSV of surveyed cemeteries (place, latitude, longitude, stones, fallen): estimated motion compared with the stations "
     "around. Stones as in --cemetery. [default: aoyama.csv]",
 )
 @free_standing_options
@@ -104,18 +104,18 @@ def map(  # noqa: A001 - the command's name
     """Table and map of an earthquake's stations: measured motion and response of a body or a cemetery, largest first.
 
     RECORD may be an archive, a folder, a pattern or a list (@records.txt) of one earthquake; of KiK-net stations the surface sensor
-    is used unless --level is given. A body is solved in all azimuths (jump and uplift: along each horizontal component), a cemetery
-    is assessed in all azimuths; the worst azimuth counts. Files that cannot be read are listed. A station without coordinates appears
-    in the table but not on the map.
+    is used unless --level is given. A body is solved in all azimuths (jump and uplift: along each horizontal component), the worst
+    azimuth counts; a stone of a cemetery counts if either horizontal component overturns it. Files that cannot be read are listed. A
+    station without coordinates appears in the table but not on the map.
     """
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.cli.load_records import check_single_window, make_preparation
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
-    from seisblock.core.errors import RecordError
-    from seisblock.readers.options import ReadOptions
-    from seisblock.report.io.atomic import check_distinct_outputs
-    from seisblock.report.io.suffix import check_text_suffix
+    from seisblock.core.errors import ParameterError, RecordError
+    from seisblock.output.io.atomic import check_distinct_outputs
+    from seisblock.output.io.suffix import check_text_suffix
+    from seisblock.records.analytic import is_analytic
     from seisblock.report.json.map import document
     from seisblock.report.text import map as text_output
     from seisblock.samples import REAL_SAMPLE
@@ -123,6 +123,9 @@ def map(  # noqa: A001 - the command's name
     from seisblock.studies.map.surveyed_places import compare_surveys, read_surveys
 
     check_single_window(source)
+    for name in source.record:
+        if is_analytic(name):
+            raise ParameterError("{motion} is an analytic motion without a place: give records of stations", motion=name)
     if source.component and source.target_pga is None:
         raise click.UsageError(gettext("--component has no effect on map except with --target-pga: all azimuths are computed"))
     check_distinct_outputs(*(path for path in (geojson, html) if path is not None))
@@ -132,8 +135,8 @@ def map(  # noqa: A001 - the command's name
     surveyed_places = None if survey is None else read_surveys(survey)
     model = _station_model(cemetery, params, solver, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if not source.record:
-        info("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
-    read_options = ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
+        note_default_record(REAL_SAMPLE, synthetic=False)
+    read_options = source.read_options(single_station=True)
     with progress("stations") as advance:
         stations = survey_stations(
             source.record or (REAL_SAMPLE,),
@@ -144,6 +147,8 @@ def map(  # noqa: A001 - the command's name
             workers=workers,
             progress=advance,
         )
+    for text in text_output.preparation_texts(stations.preparation):
+        info("{note}", note=text)
     if all(answer.failure is not None and answer.pga_m_s2 is None for answer in stations.answers):
         raise RecordError("no station could be computed: {why}", why=stations.answers[0].failure)
     if output.plot is not None and not stations.mapped:
@@ -155,15 +160,15 @@ def map(  # noqa: A001 - the command's name
         write_geojson(geojson, stations, surveys)
         info("wrote {path}", path=geojson)
     if html is not None:
+        from seisblock.output.io.atomic import write_text
         from seisblock.report.html.map import map_page
-        from seisblock.report.io.atomic import write_text
 
         with progress("drawing"):
             write_text(html, map_page(stations, model, gal=output.gal, surveys=surveys))
         info("wrote {path}", path=html)
 
     def table(path: Path) -> None:
-        from seisblock.report.io.atomic import write_table
+        from seisblock.output.io.atomic import write_table
         from seisblock.studies.map.station_row import station_row
 
         rows = [station_row(answer) for answer in stations.answers]

@@ -97,8 +97,8 @@ def measure(
     from seisblock.measures import Conventions
     from seisblock.measures import measure as compute_measures
     from seisblock.measures.summary import conventions_of
+    from seisblock.output.units_display import acceleration_unit
     from seisblock.report.json.measure import document
-    from seisblock.report.units_display import acceleration_unit
 
     if threshold["block"] is None:
         reject_without("--block", ["side"])
@@ -157,7 +157,7 @@ def _threshold(
 
 
 def _write_histories(path: Path, records: list[Any], answers: list[Any]) -> None:
-    from seisblock.report.io.atomic import write_table
+    from seisblock.output.io.atomic import write_table
     from seisblock.report.text.measure import history_table
 
     write_table(path, *history_table(records, answers))

@@ -6,7 +6,7 @@ import functools
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -14,12 +14,15 @@ from seisblock.cli import shell_completion
 from seisblock.cli.command import add_options, argument, option
 from seisblock.cli.output import DPI, SLOW, OutputOptions, check_output
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import SIZE, STOREY, WINDOW, FormatType
+from seisblock.cli.types import JMA, SIZE, STOREY, WINDOW, FormatType
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, gettext
 from seisblock.records.floor import Storey
+
+if TYPE_CHECKING:
+    from seisblock.readers.options import ReadOptions
 
 Function = Callable[..., Any]
 
@@ -32,6 +35,7 @@ class Source:
     component: tuple[str, ...]
     scale: float | None
     target_pga: float | None
+    target_jma: float | None
     window: tuple[tuple[float | None, float | None], ...]
     highpass: float | None
     floor: Storey | None
@@ -42,6 +46,20 @@ class Source:
     station: str | None
     level: str | None
     strict: bool
+    location: str | None = None
+    inventory: str | None = None
+    event: str | None = None
+    differentiate: bool = False
+    response: str = "sensitivity"
+
+    def read_options(self, *, single_station: bool = False) -> ReadOptions:
+        """Return the options of reading; with `single_station`, the station name ``all`` selects none."""
+        from seisblock.readers.options import ReadOptions
+
+        values = {field.name: getattr(self, field.name) for field in fields(ReadOptions) if hasattr(self, field.name)}
+        if single_station and self.station == "all":
+            values["station"] = None
+        return ReadOptions(**values)
 
 
 def check_callback(check: Callable[[str, float], float]) -> Callable[[click.Context, click.Parameter, float | None], float | None]:
@@ -104,6 +122,12 @@ _REAL_RECORD = _record_argument(
 _SUITE_RECORD = _record_argument(
     N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: records of --suite]")
 )
+_ITEM_RECORD = _record_argument(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: data of the paper]")
+)
+_SCENARIO_RECORD = _record_argument(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: suite scaled to the scenario]")
+)
 _RECORD_OPTIONS = (
     option(
         "--component",
@@ -122,6 +146,14 @@ _RECORD_OPTIONS = (
         metavar="GAL",
         section="Record",
         help="Largest PGA of the components under analysis after scaling, gal; taken over the whole record, before --floor and --window.",
+    ),
+    option(
+        "--target-jma",
+        type=JMA,
+        metavar="5-|5+|6-|6+|7|NUMBER",
+        section="Record",
+        help="JMA intensity after scaling, of the whole record with three components, before --floor and --window: a number, or the "
+        "middle of a half class (6+ is 6.25; 5弱 and 6強 are understood).",
     ),
     option(
         "--window",
@@ -143,9 +175,9 @@ _RECORD_OPTIONS = (
         type=STOREY,
         metavar="T=S[,zeta=0.05][,height=0.8]",
         section="Record",
-        help="Floor motion: absolute acceleration of a linear oscillator of period T, s, and damping ratio zeta, or of a floor at "
-        "the given ratio of the building height (first mode, linear shape: 0 at the ground, 1 at the roof). After --scale, "
-        "before --window; vertical component unchanged. [default: ground motion]",
+        help="Floor motion: absolute acceleration of an oscillator of period T, s, and damping ratio zeta, or of a floor at this share of "
+        "the building height (first mode, 0 ground, 1 roof). After --scale, before --window; not the vertical component. [default: "
+        "ground motion]",
     ),
     option(
         "--demean/--no-demean",
@@ -164,6 +196,30 @@ _RECORD_OPTIONS = (
     option(
         "--level", type=SuggestingChoice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net station. [default: surface]"
     ),
+    option(
+        "--location",
+        section="Record",
+        metavar="CODE",
+        help="Sensor of a station with several: SEED location code, -- for the empty one, or with the channel letters, 00.HN.",
+    ),
+    option(
+        "--inventory",
+        section="Record",
+        metavar="FILE",
+        help="StationXML with the instrument response of counts. [default: a StationXML beside the record or in its archive]",
+    ),
+    option(
+        "--response",
+        type=SuggestingChoice(["sensitivity", "full"]),
+        default="sensitivity",
+        show_default=True,
+        section="Record",
+        help="Divide counts by the sensitivity, or remove the full response.",
+    ),
+    option(
+        "--differentiate", is_flag=True, section="Record", help="Differentiate velocities of a seismometer, which are rejected otherwise."
+    ),
+    option("--event", section="Record", metavar="FILE", help="Earthquake of the record: QuakeML, or JSON. [default: from the record]"),
     option("--strict", is_flag=True, section="Record", help="Reject records with quality warnings instead of printing the warnings."),
 )
 
@@ -177,6 +233,11 @@ def _csv_option(text: str) -> Any:
 
 _CSV_HISTORIES = _csv_option("Write the time histories as CSV, SI units; - writes them alone to stdout.")
 _CSV_ROWS = _csv_option("Write the table as CSV, SI units; - writes it alone to stdout.")
+
+excel_option = option(
+    "--excel", "--bom", "excel", is_flag=True, section="Output", help="Begin the CSV with a byte order mark, so that Excel reads UTF-8."
+)
+"""Option ``--excel`` of commands that write CSV."""
 
 _FIGURE_OPTIONS = (
     option(
@@ -255,9 +316,19 @@ def real_record_options(function: Function) -> Function:
     return _collect_options(function, (_REAL_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
+def item_record_options(function: Function) -> Function:
+    """Add the record options of ``paper``, whose items have data of their own."""
+    return _collect_options(function, (_ITEM_RECORD, *_RECORD_OPTIONS), Source, "source")
+
+
 def suite_record_options(function: Function) -> Function:
     """Add the record options with a synthetic suite as default."""
     return _collect_options(function, (_SUITE_RECORD, *_RECORD_OPTIONS), Source, "source")
+
+
+def scenario_record_options(function: Function) -> Function:
+    """Add the record options of a scenario, whose default records are a suite scaled to its intensity."""
+    return _collect_options(function, (_SCENARIO_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def preparation_options(function: Function) -> Function:
@@ -265,7 +336,32 @@ def preparation_options(function: Function) -> Function:
     return _collect_options(function, _RECORD_OPTIONS, Source, "source", record=())
 
 
-def output_options(*, histories: bool = True, film: bool = True, accelerations: bool = True) -> Callable[[Function], Function]:
+def peak_options(function: Function) -> Function:
+    """Add the peaks of a motion that stand in place of a record."""
+    return add_options(
+        option(
+            "--pga",
+            type=float,
+            callback=_positive,
+            metavar="GAL",
+            section="Record",
+            help="Instead of RECORD, with --pgv or --frequency: PGA, gal.",
+        ),
+        option("--pgv", type=float, callback=_positive, metavar="KINE", section="Record", help="Instead of RECORD, with --pga: PGV, kine."),
+        option(
+            "--frequency",
+            type=float,
+            callback=_positive,
+            metavar="HZ",
+            section="Record",
+            help="Instead of RECORD, with --pga: equivalent frequency PGA/(2 pi PGV), Hz.",
+        ),
+    )(function)
+
+
+def output_options(
+    *, histories: bool = True, film: bool = True, accelerations: bool = True, excel: bool = True
+) -> Callable[[Function], Function]:
     """Return a decorator that adds the output options to a command, as one ``output``.
 
     Parameters
@@ -276,8 +372,15 @@ def output_options(*, histories: bool = True, film: bool = True, accelerations: 
         Whether there is an animation.
     accelerations : bool
         Whether ``--units`` of accelerations applies.
+    excel : bool
+        Whether the byte order mark of CSV is on request; else the command always writes it.
     """
-    texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_ANIMATION_OPTIONS if film else ()))
+    texts = (
+        _CSV_HISTORIES if histories else _CSV_ROWS,
+        *((excel_option,) if excel else ()),
+        *_FIGURE_OPTIONS,
+        *(_ANIMATION_OPTIONS if film else ()),
+    )
     declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _DETAILS, _QUIET)
     return lambda function: _collect_options(_with_output_check(function), declarations, OutputOptions, "output")
 

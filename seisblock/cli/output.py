@@ -7,8 +7,8 @@ from pathlib import Path
 
 from seisblock.core.errors import OutputError
 from seisblock.core.units import FigureSize
-from seisblock.report.io.atomic import check_animation, check_distinct_outputs, check_figure
-from seisblock.report.io.suffix import check_text_suffix
+from seisblock.output.io.atomic import check_animation, check_distinct_outputs, check_figure
+from seisblock.output.io.suffix import check_text_suffix
 
 STDOUT = Path("-")
 """Path that stands for stdout."""
@@ -32,6 +32,7 @@ class OutputOptions:
     animate: Path | None = None
     slow: float = SLOW
     details: bool = False
+    excel: bool = False
 
 
 def check_output(output: OutputOptions) -> None:
@@ -45,6 +46,8 @@ def check_output(output: OutputOptions) -> None:
     """
     if output.plot is None and (output.size is not None or output.title is not None or output.dpi != DPI):
         raise OutputError("--size, --dpi and --title require --plot")
+    if output.csv is None and output.excel:
+        raise OutputError("--excel requires --csv")
     if output.animate is None and output.slow != SLOW:
         raise OutputError("--slow requires --animate")
     if output.plot is not None and output.plot != STDOUT:

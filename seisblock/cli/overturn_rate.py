@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +15,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.build import gravity_option, solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
-from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with, reject_without
+from seisblock.cli.option_checks import RECORD_OPTIONS, given_flags, reject_with, reject_without
 from seisblock.cli.options import Source, check_callback, curve_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
@@ -53,7 +55,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
 @click.command(
     "overturn-rate",
     cls=Command,
-    essential=("--cemetery", "--reinforced", "--pga", "--frequency", "--criterion", "--inset"),
+    essential=("--cemetery", "--reinforced", "--pga", "--pgv", "--frequency", "--criterion", "--inset"),
     examples=(
         "seisblock overturn-rate --cemetery aoyama.csv",
         "seisblock overturn-rate --cemetery aoyama.csv record.csv --both --plot rate.png",
@@ -66,8 +68,8 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_cemeteries,
     section="Body",
-    help="CSV of gravestones: height_over_width, or height and width; optional reinforced, fallen, azimuth_deg, count. "
-    "Bundled: aoyama.csv.",
+    help="Table of gravestones (.csv, .xlsx): height_over_width, or height and width; optional name, reinforced, fallen, azimuth_deg, "
+    "count, inset. Bundled: aoyama.csv.",
 )
 @option("--reinforced", is_flag=True, section="Body", help="Assess all stones as reinforced (dowels).")
 @option("--both", is_flag=True, section="Body", help="Compare with all stones reinforced: number of stones saved.")
@@ -92,6 +94,8 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     metavar="HZ",
     help="Frequency, Hz; number, list or range. With RECORD: instead of its equivalent frequency.",
 )
+@option("--pgv", type=FLOATS, metavar="KINE", help="Without RECORD: PGV, kine, with --pga instead of --frequency; number, list or range.")
+@option("--paired", is_flag=True, help="Take --pga and --frequency (or --pgv) in pairs instead of all combinations; lists of equal length.")
 @option(
     "--equivalent",
     type=SuggestingChoice(FREQUENCY_KINDS),
@@ -102,16 +106,16 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
 @option(
     "--criterion",
     type=SuggestingChoice(["furukawa", "rigid", "simulate"]),
-    default="furukawa",
-    show_default=True,
     help="Fitted criteria (9), (10) for whole gravestones; one rigid block under a half sine; or simulated rocking of each stone "
-    "under RECORD or a 20 s sine.",
+    "under RECORD or a 20 s sine. [default: simulate with RECORD; furukawa without, for reinforced stones and with --frequency, "
+    "--equivalent or --fit]",
 )
 @option(
     "--inset",
     type=INSET,
     metavar="SHARE|M",
-    help="rigid, simulate: inset of worn edges from each side, share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.05]",
+    help="rigid, simulate: inset of worn edges from each side, share of the width (0.1, 10%), or m with a unit (1cm). [default: "
+    "0 to 0.1, median 0.05]",
 )
 @option(
     "--fit",
@@ -133,6 +137,13 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     callback=check_callback(partial(checks.in_interval, interval="(0, 1)")),
     help="Confidence level of the interval of the rate, 0 to 1.",
 )
+@option(
+    "--stones",
+    type=click.Path(path_type=Path),
+    metavar="FILE.csv",
+    section="Output",
+    help="Write the result of each stone: threshold, probability, computed and observed overturning (CSV that Excel opens).",
+)
 @solver_options(RockOptions, "vertical")
 @gravity_option
 @output_options(histories=False, film=False)
@@ -141,43 +152,48 @@ def overturn_rate(
 ) -> None:
     """Overturning rate of the gravestones of a cemetery (Furukawa et al. 2009).
 
-    A stone overturns when its height over width exceeds a(f)/PGA. Without RECORD: curve of the rate against PGA, or the rate at --pga and
-    --frequency. With RECORD: rate for each horizontal component and for the larger of them. --csv writes the printed table, --json also the
-    curve.
+    With RECORD each stone rocks under each horizontal component and counts if either overturns it; observed falls of the table are
+    compared. Without RECORD a stone overturns when its height over width exceeds a(f)/PGA: curve of the rate against PGA, or the rate at
+    --pga and --frequency. --csv writes the printed table, --json also the curve and each stone.
     """
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.overturn_rate import document, parameters_of
+    from seisblock.report.text.stones import RATE_COLUMNS as STONE_COLUMNS
+    from seisblock.report.text.stones import check_stones_file, rate_groups, write_stones
     from seisblock.studies.survey import assessment as study
     from seisblock.studies.survey.overturning_rate import FREQUENCIES
 
     if reinforced + both + (most_fragile is not None) > 1:
         raise click.UsageError(gettext("--reinforced, --both and --most-fragile exclude each other: give only one of them"))
-    _check_options(source, params)
+    if params["stones"] is not None:
+        if not (source.record or params["pga"]):
+            raise click.UsageError(gettext("--stones requires RECORD, or --pga: the outcome of a stone depends on the shaking"))
+        check_stones_file(params["stones"])
     stones = read_cemetery(cemetery)
     for note in stones.notes[:1]:
         info("{cemetery}: {note}", cemetery=cemetery, note=lazy_gettext(note))
     stones = stones.with_dowels() if reinforced else stones
     dowelled = stones.with_dowels(most_fragile) if both or most_fragile else None
+    params["criterion"] = params["criterion"] or _default_criterion(
+        source, params, has_dowels=dowelled is not None or bool(stones.reinforced.any())
+    )
+    _check_options(source, params)
     inset, notes = _resolve_inset(params["inset"], params["criterion"])
     method = _make_method({**params, "inset": inset})
     groups = _shaking_groups(source, params)
     with progress("overturning rates") as advance:
-        rate_groups = [
-            (
+        results = [
+            (record, study.assess_record(stones, shakings, method, reinforced_cemetery=dowelled, progress=advance))
+            if record is not None
+            else (
                 record,
                 [study.assess_cemetery(stones, shaking, method, reinforced_cemetery=dowelled, progress=advance) for shaking in shakings],
             )
             for record, shakings in groups
         ]
         frequencies = params["frequency"] or FREQUENCIES
-        simulated = (
-            [point for _, rates in rate_groups for shaking in rates for point in shaking.curve] if method.criterion == "simulate" else []
-        )
+        simulated = [point for _, rates in results for rate in rates[-1:] for point in rate.curve] if method.criterion == "simulate" else []
         curve = simulated or study.overturning_curve(stones, method, frequencies=frequencies, progress=advance)
-    results = [
-        (record, [*rates, study.larger_component(rates)] if record is not None and len(rates) > 1 else rates)
-        for record, rates in rate_groups
-    ]
     warnings = notes + study.cemetery_warnings(
         stones, [shaking for _, shakings in groups for shaking in shakings], method, reinforced_cemetery=dowelled
     )
@@ -185,6 +201,10 @@ def overturn_rate(
     motions = [shaking.motion for _, shakings in groups for shaking in shakings if shaking.motion is not None]
     parameters = parameters_of(stones, dowelled, method, motions=motions, frequency_kind=frequency_kind)
     answer = document(results, curve, parameters, citations=method.citations, warnings=warnings)
+
+    def reinforced_curve() -> Any:
+        """Return the curve with dowels, empty with results or where none are compared."""
+        return study.overturning_curve(dowelled, method, frequencies=frequencies) if dowelled and not results else ()
 
     def tables() -> Any:
         from seisblock.report.text.overturn_rate import tables as text_output
@@ -194,26 +214,41 @@ def overturn_rate(
     def figure() -> Any:
         from seisblock.report.figures.cemetery import overturn_rate_figure
 
-        return overturn_rate_figure(stones, results, curve, gal=output.gal)
+        return overturn_rate_figure(stones, results, curve, reinforced_curve(), gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.report.io.atomic import write_table
+        from seisblock.output.io.atomic import write_table
         from seisblock.report.text.overturn_rate import curve_csv, rate_csv
 
         if results:
             write_table(path, *rate_csv(results))
             return
-        write_table(path, *curve_csv(curve, study.overturning_curve(dowelled, method, frequencies=frequencies) if dowelled else None))
+        write_table(path, *curve_csv(curve, reinforced_curve() or None))
 
+    if params["stones"] is not None:
+        write_stones(params["stones"], STONE_COLUMNS, rate_groups(results))
+        info("wrote {file}", file=str(params["stones"]))
     write_results(answer, output, tables=tables, figure=figure, csv=csv)
+
+
+def _default_criterion(source: Source, params: dict[str, Any], *, has_dowels: bool) -> str:
+    """Return the criterion of a call that names none: each stone is simulated where there is a motion."""
+    uses_fit = bool(params["frequency"] or params["fit"] or params["fit_reinforced"] or given_flags(["equivalent"]))
+    return "simulate" if source.record and not uses_fit and not has_dowels else "furukawa"
 
 
 def _check_options(source: Source, params: dict[str, Any]) -> None:
     """Raise an error for options without effect on this motion or criterion."""
-    if not source.record:
+    if params["pgv"] and params["frequency"]:
+        raise click.UsageError(gettext("--pgv and --frequency exclude each other: give only one of them"))
+    if source.record:
+        reject_with("RECORD", ["paired", "pgv"])
+        if params["frequency"]:
+            reject_with("--frequency", ["equivalent"])
+    else:
+        if not params["pga"]:
+            reject_without("--pga", ["pgv"])
         reject_without("RECORD", [*RECORD_OPTIONS, "equivalent", "vertical"])
-    elif params["frequency"]:
-        reject_with("--frequency", ["equivalent"])
     if params["criterion"] != "furukawa":
         reject_with(f"--criterion {params['criterion']}", ["fit", "fit_reinforced"])
     elif not (source.record or params["pga"]):
@@ -221,7 +256,7 @@ def _check_options(source: Source, params: dict[str, Any]) -> None:
 
 
 def _make_method(params: dict[str, Any]) -> Any:
-    from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
+    from seisblock.bodies.table import PAPER_WIDTH
     from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit
     from seisblock.studies.survey.assessment import AssessmentMethod
 
@@ -235,14 +270,14 @@ def _make_method(params: dict[str, Any]) -> Any:
     )
 
 
-def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear, list[str]]:
+def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear | None, list[str]]:
     """Return the inset and the warnings about its interpretation."""
     if inset is None:
         if criterion != "furukawa":
             info(
                 "stones have edges worn by {share:g} of their width per side (default); --inset 0 for sharp edges", share=DEFAULT_WEAR.share
             )
-        return DEFAULT_WEAR, []
+        return None, []
     if criterion == "furukawa":
         return inset, [FITTED_EDGES]
     if inset.length_m == 0.0 and MAX_SHARE < inset.share <= 1.0:
@@ -257,15 +292,34 @@ def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear, li
     return inset, []
 
 
+def _peaks(params: dict[str, Any]) -> list[tuple[float, float]]:
+    """Return PGA, m/s^2, and frequency, Hz, of the ground motions without a record: all combinations, or pairs."""
+    from seisblock.studies.survey.overturning_rate import FREQUENCIES
+
+    pga, pgv = params["pga"] or (), params["pgv"] or ()
+    second_values = pgv or params["frequency"] or (() if params["paired"] else FREQUENCIES)
+    if params["paired"] and not len(pga) == len(second_values) > 0:
+        text = N_("--paired requires as many values of --pga as of --frequency, found {first} and {second}")
+        if pgv:
+            text = N_("--paired requires as many values of --pga as of --pgv, found {first} and {second}")
+        raise click.UsageError(gettext(text, first=len(pga), second=len(second_values)))
+    check_limit(N_("ground motions"), len(pga) * (1 if params["paired"] else len(second_values)), MAX_CELLS)
+    pairs = zip(pga, second_values, strict=True) if params["paired"] else product(pga, second_values)
+    if not pgv:
+        return [(a / 100.0, f) for a, f in pairs]
+    for value in pgv:
+        checks.positive("PGV", value, "kine")
+    # the equivalent frequency of both peaks
+    return [(a / 100.0, a / (2.0 * math.pi * v)) for a, v in pairs]
+
+
 def _shaking_groups(source: Source, params: dict[str, Any]) -> list[tuple[Any, list[Any]]]:
     """Return the ground motions, grouped by record; None without record."""
-    from seisblock.studies.survey.overturning_rate import FREQUENCIES
     from seisblock.studies.survey.shaking import Shaking, component_shakings
 
     pga, frequency = params["pga"], params["frequency"]
     if not source.record:
-        check_limit(N_("ground motions"), len(pga or ()) * len(frequency or FREQUENCIES), MAX_CELLS)
-        return [(None, [Shaking(a / 100.0, f) for a in pga for f in frequency or FREQUENCIES])] if pga else []
+        return [(None, [Shaking(a, f) for a, f in _peaks(params)])] if pga or params["paired"] else []
     if pga:
         raise click.UsageError(gettext("RECORD and --pga exclude each other: give only one of them; --target-pga scales a record"))
     if frequency and len(frequency) > 1:

@@ -1,4 +1,4 @@
-"""Progress line on stderr, shown on a terminal after a delay.
+"""Progress line on stderr, shown on a terminal after a delay, or progress file.
 
 A run has one line, drawn by a thread, so that compiled code and plotting libraries need no hooks. :func:`progress` sets the description
 and the count; the solver reports the progress of a single motion between slices.
@@ -7,6 +7,7 @@ and the count; the solver reports the progress of a single motion between slices
 from __future__ import annotations
 
 import contextlib
+import json
 import math
 import os
 import sys
@@ -14,6 +15,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.verbosity import is_quiet
@@ -34,6 +36,9 @@ TICK_S = 0.1
 
 STALE_S = 1.0
 """Age after which the progress of a single motion is no longer shown, s."""
+
+FILE_VARIABLE = "SEISBLOCK_PROGRESS_FILE"
+"""Environment variable of a file that holds the current task as JSON, for a program that runs a command: `text`, `completed`, `total`."""
 
 MAX_COUNT = 100_000
 """Largest total shown as a count; larger ones are shown as a percentage."""
@@ -109,7 +114,7 @@ class StatusLine:
     def _watch(self) -> None:
         """Redraw the line until the end."""
         if not self._ended.wait(REFRESH_DELAY_S):
-            _make_bar(has_total=False)
+            self._prepare()
         while not self._ended.wait(TICK_S):
             with self._lock:
                 if time.monotonic() - self._last_message_s > SHOW_DELAY_S and not self._ended.is_set():
@@ -119,6 +124,10 @@ class StatusLine:
         """Return the innermost task, or the motion in progress."""
         follows_motion = len(self.works) == 1 and time.monotonic() - self._last_event_s < STALE_S
         return self._motion_task if follows_motion else self.works[-1]
+
+    def _prepare(self) -> None:
+        """Import rich."""
+        _make_bar(has_total=False)
 
     def _paint(self, work: Task) -> None:
         has_total = work.total is not None
@@ -136,8 +145,24 @@ class StatusLine:
             self._bar = None
 
 
+class ProgressFile(StatusLine):
+    """Progress of one run in a file instead of a line on the terminal, see :data:`FILE_VARIABLE`."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self._path = path
+
+    def _prepare(self) -> None:
+        """Import nothing: a file needs no rich."""
+
+    def _paint(self, work: Task) -> None:
+        draft = self._path.with_suffix(".part")
+        draft.write_text(json.dumps({"text": work.text, "completed": work.completed, "total": work.total}), encoding="utf-8")
+        draft.replace(self._path)
+
+
 _line: StatusLine | None = None
-"""Progress line of the current run; None without a terminal."""
+"""Progress of the current run; None where nobody watches."""
 
 
 @contextlib.contextmanager
@@ -148,8 +173,8 @@ def progress(text: str, /, **values: Any) -> Iterator[Callable[[int, int], None]
     """
     global _line
     with contextlib.ExitStack() as stack:
-        if _line is None and _is_watched():
-            _line = StatusLine()
+        if _line is None and (watched := _make_line()) is not None:
+            _line = watched
             stack.callback(_reset)
             stack.enter_context(progress_scope(_line.on_progress))
             work = Task(gettext(text, **values))
@@ -186,6 +211,13 @@ def _reset() -> None:
     _line = None
 
 
+def _make_line() -> StatusLine | None:
+    """Return the progress line or file of a run; None where nobody watches."""
+    if path := os.environ.get(FILE_VARIABLE):
+        return ProgressFile(Path(path))
+    return StatusLine() if _is_watched() else None
+
+
 def _is_watched() -> bool:
     """Return whether stderr is a terminal with cursor control and ``--quiet`` is off."""
     return not is_quiet() and sys.stderr.isatty() and os.environ.get("TERM", "") not in ("", "dumb", "unknown")
@@ -195,7 +227,7 @@ def _make_bar(*, has_total: bool) -> Bar:
     """Return the rich progress bar: with remaining time if the total is known, else with elapsed time."""
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-    from seisblock.report.text.tables import console
+    from seisblock.output.text.tables import console
 
     columns = TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[count]}", markup=False)
     clock = TimeRemainingColumn() if has_total else TimeElapsedColumn()

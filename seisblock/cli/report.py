@@ -12,14 +12,14 @@ from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import side_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.console import info, warning
+from seisblock.cli.console import info, print_result, print_tables, warning
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, record_options
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH, MU
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core.errors import InputError
-from seisblock.core.i18n import get_locale, lazy_gettext
+from seisblock.core.i18n import get_locale, gettext, lazy_gettext
 
 DEFAULT_BODIES = ("gravestone", "chozusha")
 
@@ -27,7 +27,11 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
 @click.command(
     cls=Command,
     essential=("--body", "--kind", "--mu", "--drop", "--output", "-o"),
-    examples=("seisblock report -o report.html", "seisblock report record.csv --body 24cmx72cm --mu 0.3 --lang ja -o report.html"),
+    examples=(
+        "seisblock report -o report.html",
+        "seisblock report record.csv --body 24cmx72cm --mu 0.3 --lang ja -o report.html",
+        "seisblock report record.csv --body gravestone --body bookcase --json",
+    ),
 )
 @record_options
 @option(
@@ -62,20 +66,19 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
 @option(
     "--drop",
     type=LENGTH,
-    default=0.0,
     section="Body",
-    help="Height of a two-layer body's floor above the ground, m or with a unit. [default: 0]",
+    help="Height of a two-layer body's floor above the ground, m or with a unit. [default: value of the body, else 0]",
 )
 @gravity_option
 @option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
-    required=True,
     metavar="FILE",
     section="Output",
-    help="HTML page to write.",
+    help="HTML page to write. [required without --json]",
 )
+@option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout, SI units.")
 @option("--quiet", is_flag=True, section="Output", help="Print only errors and one line of quality warnings on stderr.")
 def report(
     source: Source,
@@ -85,26 +88,34 @@ def report(
     mu: float | None,
     mu_kinetic: float | None,
     frequency_vertical: float | None,
-    drop: float,
+    drop: float | None,
     gravity: float,
-    output: Path,
+    output: Path | None,
+    as_json: bool,
     quiet: bool,
 ) -> None:
     """Self-contained HTML report: the record, its measures, and sliding, rocking, jump, uplift and overturning of bodies.
 
-    The page works without network, on a phone and in print. Each result shows its margin.
+    The page works without network, on a phone and in print. Each body has its overturning probability, each result its margin. --json
+    prints the assessment of each body, in each direction and as an object under any of them.
     """
     from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.progress import progress
-    from seisblock.report.figures.fonts import NO_FONT, drawable_locale
+    from seisblock.output.figures.fonts import NO_FONT, drawable_locale
+    from seisblock.output.io.atomic import check_distinct_outputs, write_text
+    from seisblock.output.io.suffix import check_text_suffix
+    from seisblock.output.json.encode import to_json
     from seisblock.report.html.report import report as page
-    from seisblock.report.io.atomic import check_distinct_outputs, write_text
-    from seisblock.report.io.suffix import check_text_suffix
-    from seisblock.studies.assessment import assess
+    from seisblock.report.json.report import document
+    from seisblock.report.text.report import tables
     from seisblock.studies.report.models import body_models, is_sizes
+    from seisblock.studies.report.responses import collect_responses
 
-    check_distinct_outputs(output)
-    check_text_suffix(output, "HTML")
+    if output is not None:
+        check_distinct_outputs(output)
+        check_text_suffix(output, "HTML")
+    elif not as_json:
+        raise click.UsageError(gettext("the page requires -o FILE; without a page, give --json"))
     with quiet_output(quiet):
         names = body or DEFAULT_BODIES
         if not body:
@@ -120,15 +131,20 @@ def report(
         records = load_records(source)
         if len(records) != 1:
             raise InputError("a report requires one record, found {count}: run the command for each record", count=len(records))
-        if drawable_locale() != get_locale():
+        if output is not None and drawable_locale() != get_locale():
             info(NO_FONT)
         with progress("assessing the bodies") as advance:
-            assessment = assess(
+            data = collect_responses(
                 records[0], subjects, components=selected_components(records[0], source), drop=drop, gravity=gravity, progress=advance
             )
-        for message in assessment.warnings:
+        for message in data.warnings:
             warning(message)
-        with progress("drawing"):
-            html = page(assessment, command=shlex.join(["seisblock", *click.get_current_context().obj]))
-        write_text(output, html)
-        info("wrote {path}", path=output)
+        if output is not None:
+            with progress("drawing"):
+                html = page(data, command=shlex.join(["seisblock", *click.get_current_context().obj]))
+            write_text(output, html)
+            info("wrote {path}", path=output)
+        if as_json:
+            print_result(to_json(document(data)))
+        else:
+            print_tables(tables(data))

@@ -2,42 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from seisblock.cli.azimuth_sweep import azimuth_figure, sweep_motions
-from seisblock.cli.bodies.free_standing import choose_free_standing, free_standing_options
+from seisblock.bodies.scan.body import ScannedBody
+from seisblock.cli.azimuth_sweep import assessed_figure, sweep_block, sweep_motions
+from seisblock.cli.bodies.free_standing import FreeStandingChoice, choose_free_standing, free_standing_list_options
 from seisblock.cli.build import solver_options
-from seisblock.cli.command import Command
+from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.sampling_options import pop_spreads, ranges_replaced, version_options
+from seisblock.cli.variants import check_variants, list_variants, variant_params, write_variants
 from seisblock.cli.write_results import write_results
+from seisblock.core.errors import ParameterError
 from seisblock.models.respond.options import RespondOptions
+from seisblock.models.rigid3d.options import Rigid3dOptions
 
 if TYPE_CHECKING:
+    from seisblock.core.results import Response
     from seisblock.records import Record
     from seisblock.studies.respond.azimuths import RespondAzimuth
+    from seisblock.studies.sampling import ParameterVariation
+
+PLANAR_OPTIONS = ("mu_kinetic", "rocking_restitution")
+"""Options that only the plane model has."""
 
 VARIED_PARAMETERS = ("size", "inset", "mu", "restitution", "amplitude", "azimuth")
 
 
 @click.command(
     cls=Command,
-    essential=("--width", "--height", "--kind", "--block", "--mu", "--surface", "--floor", "--vertical", "--runs"),
+    essential=("--width", "--height", "--kind", "--block", "--mu", "--surface", "--floor", "--runs"),
     examples=(
         "seisblock respond --width 45cm --height 180cm --mu 0.3",
         "seisblock respond record.csv --block gravestone --component EW --plot respond.png",
+        "seisblock respond --width 45cm --height 180cm --mu 0.2,0.3,0.5 --plot friction.png",
     ),
 )
 @record_options
-@free_standing_options
+@free_standing_list_options
 @solver_options(RespondOptions, "vertical")
 @version_options(*VARIED_PARAMETERS, runs=200)
 @solver_options(RespondOptions, "settle_s", "gravity")
+@option(
+    "--three-d/--planar",
+    default=None,
+    help="Three dimensions under all components at once, as rigid3d, or the vertical plane of each component. [default: three dimensions "
+    "for a scan, else planar]",
+)
 @output_options()
 def respond(
     source: Source,
@@ -48,6 +64,7 @@ def respond(
     moved: float,
     seed: int,
     settle_s: float,
+    three_d: bool | None,
     **params: Any,
 ) -> None:
     """Full response of a free-standing object: rest, sliding, rocking, slide-rocking, flight, overturning.
@@ -55,64 +72,120 @@ def respond(
     Plane motion of one rigid body with Coulomb friction; each horizontal component is solved separately, with the vertical component
     where the record has one, until the object is at rest. The overturning probability is the share of samples of body and motion that
     overturn. Samples vary around the given values; edge wear and friction that are not given are drawn from the ranges of the
-    object's kind (see --vary-inset, --vary-mu). --component all-azimuths sweeps all azimuths and reports the worst. The
-    dimensions of a scanned --block depend on the azimuth.
+    object's kind. --component all-azimuths reports the worst azimuth; towards an azimuth in degrees the base is projected (width
+    to north, --depth to east). A scanned --block is solved in three dimensions; with --planar its dimensions depend on the azimuth.
     """
     from seisblock.cli.progress import progress
     from seisblock.models.respond.solve import solve_respond
     from seisblock.report.json.respond import document
-    from seisblock.report.text import respond as text_output
-    from seisblock.studies.respond.probability import ParameterVariation, respond_probability
+    from seisblock.report.text.assessment import first_probability
+    from seisblock.report.text.respond import tables
+    from seisblock.studies.assessment import assess_respond
+    from seisblock.studies.azimuth_probability import average_azimuths
+    from seisblock.studies.respond.probability import check_moved, summarize
+    from seisblock.studies.sampling import ParameterVariation, sample
 
-    widths = pop_spreads(params, *VARIED_PARAMETERS)
+    variants = list_variants(params)
+    variation = ParameterVariation(**pop_spreads(params, *VARIED_PARAMETERS))
+    check_moved(moved)
     replaced = ranges_replaced()
-    choice = choose_free_standing({**params, "gal": output.gal})
-    info("body: {says}", says=choice.description)
-    options = RespondOptions(
-        mu=choice.mu,
-        mu_kinetic=choice.mu_kinetic,
-        restitution=params["restitution"],
-        rocking_restitution=params["rocking_restitution"],
-        tenon=params["tenon"],
-        vertical=vertical,
-        gravity=gravity,
-        settle_s=settle_s,
-    )
-    responses, extras = [], []
-    for motion, directions in sweep_motions(source, _azimuth_study(choice.body, options)):
-        block = choice.block_for_motion(motion)
-        responses.append(solve_respond(block, motion, **options.keywords()))
-        extra: dict[str, Any] = choice.block_key(block)
-        if runs:
-            with progress("samples {name}", name=motion.name) as advance:
-                extra["probability"] = respond_probability(
-                    block.without_ranges(*replaced),
-                    motion,
-                    options,
-                    runs=runs,
-                    moved_m=moved,
-                    versions=ParameterVariation(**widths),
-                    seed=seed,
-                    progress=advance,
-                )
-        if directions:
-            extra["directions"] = directions
-        extras.append(extra)
+    first = variant_params(params, variants[0])
+    choice = choose_free_standing({**first, "gal": output.gal})
+    if _has_three_dimensions(three_d, choice, first):
+        if len(variants) > 1:
+            raise ParameterError("three dimensions accept one width, height and friction: give one of each, or --planar")
+        params = first
+        in_space = Rigid3dOptions(mu=choice.mu, restitution=params["restitution"], vertical=vertical, gravity=gravity, settle_s=settle_s)
+        _solve_in_space(source, output, params, choice, in_space, variation, runs=runs, moved=moved, seed=seed)
+        return
+    check_variants(source, output, variants)
+    responses: list[Response[Any]] = []
+    extras: list[dict[str, Any]] = []
+    motions: list[Any] = []
+    for variant in variants:
+        values = variant_params(params, variant)
+        choice = choose_free_standing({**values, "gal": output.gal})
+        if not responses:
+            info("body: {says}", says=choice.description)
+        options = RespondOptions(
+            mu=choice.mu,
+            mu_kinetic=choice.mu_kinetic,
+            restitution=params["restitution"],
+            rocking_restitution=params["rocking_restitution"],
+            tenon=params["tenon"],
+            vertical=vertical,
+            gravity=gravity,
+            settle_s=settle_s,
+        )
+        motions = motions or list(sweep_motions(source, _azimuth_study(choice.body, options, runs, variation, seed, replaced)))
+        for motion, directions in motions:
+            block = sweep_block(choice, motion, directions)
+            responses.append(solve_respond(block, motion, **options.keywords()))
+            extra: dict[str, Any] = choice.block_key(block) | ({"variant": variant} if variant else {})
+            if runs:
+                median = block.without_ranges(*replaced)
+                with progress("samples {name}", name=motion.name) as advance:
+                    samples = sample("respond", median, motion, options, runs, variation, seed=seed, progress=advance)
+                extra["probability"] = summarize(samples, median, moved)
+                extra["assessment"] = assess_respond(block, motion, options, samples, moved_m=moved)
+            if directions:
+                extra |= {"directions": directions, **({"all_azimuths": average_azimuths(directions, runs)} if runs else {})}
+            extras.append(extra)
+    if len(variants) > 1:
+        write_variants(document(responses, extras), output, responses, extras)
+        return
     write_results(
-        document(responses, responses[0].body, extras),
+        document(responses, extras),
         output,
         responses=responses,
-        figure=azimuth_figure(responses, extras, gal=output.gal),
-        tables=lambda: text_output.tables(responses, extras, gal=output.gal),
+        figure=assessed_figure(responses, extras, gal=output.gal),
+        tables=lambda: tables(responses, extras, gal=output.gal),
+        probability=first_probability(extras),
     )
 
 
-def _azimuth_study(body: Any, options: RespondOptions) -> Callable[[Record], Sequence[RespondAzimuth]]:
-    """Return a function that solves all azimuths of a record."""
+def _has_three_dimensions(three_d: bool | None, choice: FreeStandingChoice, params: Mapping[str, Any]) -> bool:
+    """Return whether the run is in three dimensions: as asked, else for a scan with a hull, without options of the plane model alone."""
+    if three_d is not None:
+        return three_d
+    is_planar = params["tenon"] or any(params[key] is not None for key in PLANAR_OPTIONS) or choice.mu_kinetic not in (None, choice.mu)
+    return isinstance(choice.body, ScannedBody) and bool(choice.body.hull) and not is_planar
+
+
+def _solve_in_space(
+    source: Source,
+    output: OutputOptions,
+    params: Mapping[str, Any],
+    choice: FreeStandingChoice,
+    options: Rigid3dOptions,
+    variation: ParameterVariation,
+    **samples: Any,
+) -> None:
+    """Solve in three dimensions; reject options that only the plane model has."""
+    from seisblock.cli.rigid3d import solve_in_space
+
+    for key in PLANAR_OPTIONS:
+        if params[key] is not None:
+            raise ParameterError("{flag} has no effect with --three-d: omit it", flag="--" + key.replace("_", "-"))
+    if params["tenon"]:
+        raise ParameterError("{flag} has no effect with --three-d: omit it", flag="--tenon")
+    solve_in_space(source, output, choice, options, variation, **samples)
+
+
+def _azimuth_study(
+    body: Any, options: RespondOptions, runs: int, variation: ParameterVariation, seed: int, known: Sequence[str]
+) -> Callable[[Record], Sequence[RespondAzimuth]]:
+    """Return a function that solves all azimuths of a record, with samples in each."""
 
     def look(record: Record) -> Sequence[RespondAzimuth]:
+        from seisblock.cli.progress import progress
+        from seisblock.studies.azimuth_probability import rank_by_probability
         from seisblock.studies.respond.azimuths import respond_directions
 
-        return respond_directions(body, record, options)
+        results = respond_directions(body, record, options)
+        if not runs or not any(result.moves for result in results):
+            return results
+        with progress("azimuths") as advance:
+            return rank_by_probability("respond", body, record, results, options, runs, variation, seed=seed, known=known, progress=advance)
 
     return look

@@ -59,7 +59,7 @@ _check_years = check_callback(partial(checks.positive, unit="years"))
 )
 @option(
     "--im",
-    metavar="pga|pgv|pgd|sa=T|arias|p*pgv",
+    metavar="pga|pgv|pgd|sa:T|rotd50:T|rotd100:T|arias|cav|p*pgv",
     section="Body",
     help="Intensity measure of the fragility (T in s). [default: that of the hazard]",
 )
@@ -105,7 +105,7 @@ def risk(output: OutputOptions, hazard: Path, years: float, stood: float | None,
         return make_figure(risks, site, gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.report.io.atomic import write_table
+        from seisblock.output.io.atomic import write_table
         from seisblock.report.text.risk import csv_columns
 
         write_table(path, *csv_columns(risks, site))

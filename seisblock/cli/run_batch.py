@@ -13,19 +13,18 @@ from typing import TYPE_CHECKING, Any
 
 from seisblock import __version__
 from seisblock.bodies.table import read_bodies
-from seisblock.cli.console import info, print_result, print_tables, warning
+from seisblock.cli.console import info, note_default_record, print_result, print_tables, warning
 from seisblock.cli.load_records import check_single_window, make_preparation
 from seisblock.cli.options import Source
 from seisblock.cli.progress import progress
 from seisblock.core._display import exact_repr
 from seisblock.core.errors import OutputError, ParameterError, RecordError, SeisblockError
 from seisblock.core.io.checkpoint import Checkpoint, Key, checkpoint_path, lock_checkpoint
+from seisblock.output.io.atomic import byte_order_mark, check_target, read_table, write_table
+from seisblock.output.io.parquet import check_parquet, read_parquet, write_parquet
+from seisblock.output.json.encode import to_json
 from seisblock.readers.discover import expand_names, group_files
-from seisblock.readers.options import ReadOptions
-from seisblock.report.io.atomic import check_target, read_table, write_table
-from seisblock.report.io.parquet import check_parquet, read_parquet, write_parquet
 from seisblock.report.json.batch import document
-from seisblock.report.json.encode import to_json
 from seisblock.report.text import batch as text_output
 from seisblock.samples import DEFAULT_SAMPLE
 from seisblock.studies.batch.cluster import connect
@@ -62,9 +61,12 @@ def run_batch(
     workers: int | None,
     cluster: str | None,
     as_json: bool,
+    excel: bool,
 ) -> None:
     """Run a batch, write its table and print a summary."""
     _check_target(out, resume=resume, force=force)
+    if excel and out.suffix.lower() == PARQUET:
+        raise OutputError("--excel has no effect on a .parquet: omit it, or write .csv")
     plan, notes = _make_plan(source, request)
     names = source.record or (_default_record(),)
     with progress("searching for records"):
@@ -85,7 +87,7 @@ def run_batch(
             has_answers = any(not row.get(REASON) for key in keys for row in journal.rows(key))
             if has_answers:
                 write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
-                with progress("writing {file}", file=str(out)):
+                with progress("writing {file}", file=str(out)), byte_order_mark(excel):
                     write(out, columns, (row_cells(columns, row) for row in rows_of_all))
             else:
                 deque(rows_of_all, maxlen=0)  # count only: a table without results must not block the corrected call
@@ -111,18 +113,13 @@ def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Se
     tables: dict[str, list[Row]] = {path: list(group) for path, group in groupby(rows, key=lambda row: row["path"])}
     matches = tables.keys() == paths or (plan.read_options.station is not None and tables.keys() <= paths)
     if matches and tables:
-        sample_path = max(tables, key=lambda path: sum(_row_information(row, plan) for row in tables[path]))
+        sample_path = max(tables, key=lambda path: sum((0 if row.get(REASON) else 1 + bool(row[plan.model.event])) for row in tables[path]))
         recording = next(candidate for candidate in group_files(files, plan.read_options) if candidate.path == sample_path)
         recomputed = [row_cells(columns, row) for row in record_rows(recording, plan)]
         matches = _cell_texts(recomputed) == _cell_texts([row_cells(columns, row) for row in tables[sample_path]])
     if not matches:
         raise OutputError("{path} is complete, but for other records, bodies, options or another solver: --force replaces it", path=out)
     yield from tables.values()
-
-
-def _row_information(row: Row, plan: Plan) -> int:
-    """Return a score of the information in a row: 0 without result, 2 where the limit state occurred."""
-    return 0 if row.get(REASON) else 1 + bool(row[plan.model.event])
 
 
 def _cell_texts(rows: Iterable[Sequence[Any]]) -> list[list[str]]:
@@ -164,7 +161,7 @@ def _make_plan(source: Source, request: BatchRequest) -> tuple[Plan, tuple[str, 
         request.solver,
         components=components,
         preparation=make_preparation(source, () if is_all_azimuths(components) else components),
-        read_options=ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level),
+        read_options=source.read_options(single_station=True),
         runs=request.runs,
         seed=request.seed,
         strict=source.strict,
@@ -180,8 +177,8 @@ def _columns(plan: Plan) -> dict[str, type]:
 
 
 def _default_record() -> str:
-    """Return the default record and print its name."""
-    info("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
+    """Return the default record; its name is the first line of the result."""
+    note_default_record(DEFAULT_SAMPLE, synthetic=True)
     return DEFAULT_SAMPLE
 
 

@@ -19,13 +19,12 @@ from seisblock.cli.progress import progress
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import OutputError, ParameterError
 from seisblock.core.i18n import gettext, lazy_gettext
-from seisblock.readers.options import ReadOptions
+from seisblock.output.io.atomic import check_distinct_outputs, write_records, write_table, write_text
 from seisblock.records import Record
 from seisblock.records.synthetic.suite import DEFAULT_SUITE, parse_suite
 from seisblock.report.exports.knet import write_knet
 from seisblock.report.exports.openquake import nrml
 from seisblock.report.exports.pelicun import pelicun_metadata, pelicun_rows
-from seisblock.report.io.atomic import check_distinct_outputs, write_records, write_table, write_text
 from seisblock.report.json.fragility import document
 from seisblock.report.text import fragility as text_output
 from seisblock.studies.batch.worst_azimuth import is_all_azimuths
@@ -118,9 +117,7 @@ def _load_suite(source: Source, params: Mapping[str, Any]) -> tuple[list[Record]
         for name, value in (("--suite", params["suite"]), ("--suite-out", params["suite_out"])):
             if value is not None:
                 raise ParameterError("RECORD and {name} exclude each other: give only one of them", name=name)
-        read_options = ReadOptions(
-            source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level
-        )
+        read_options = source.read_options(single_station=True)
         with progress("reading the records"):
             records, left_out = read_suite(source.record, read_options, strict=source.strict)
         return records, left_out, None

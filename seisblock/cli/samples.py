@@ -45,8 +45,8 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
             if not paths:
                 info("{directory} already contains these files", directory=directory)
     if as_json:
+        from seisblock.output.json.encode import to_json
         from seisblock.report.json.citations import samples_document
-        from seisblock.report.json.encode import to_json
 
         print_result(to_json(samples_document(selection, directory)))
     elif directory is None:

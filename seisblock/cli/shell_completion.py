@@ -16,14 +16,13 @@ Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem
 COMPONENT_NAMES = ("NS", "EW", "UD", "all")
 """Component names offered without reading a record."""
 
-SWEEP_COMMANDS = {"batch", "fragility", "respond", "rock", "slide", "spectrum"}
-"""Commands that accept ``--component all-azimuths``."""
-
 
 def complete_components(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Complete the last component of a comma-separated list."""
     prefix, _, partial = incomplete.rpartition(",")
-    names = [*COMPONENT_NAMES, *([ALL_AZIMUTHS] if ctx.info_name in SWEEP_COMMANDS else [])]
+    # the help of a command that sweeps the azimuths says so
+    sweeps = f"--component {ALL_AZIMUTHS}" in " ".join((ctx.command.help or "").split())
+    names = [*COMPONENT_NAMES, *([ALL_AZIMUTHS] if sweeps else [])]
     return _completion_items((f"{prefix}," if prefix else "") + name for name in names if name.lower().startswith(partial.lower()))
 
 

@@ -141,10 +141,11 @@ def _run_single(
     """Solve one set of parameters for each direction or for the worst azimuth."""
     from seisblock.bodies.sliding_base import sliding_base
     from seisblock.cli.hints import slide_hint
+    from seisblock.models.slide.describe import tables
     from seisblock.models.slide.solve import solve_slide
     from seisblock.records import motion_of
     from seisblock.report.json.slide import document
-    from seisblock.report.text import slide as text_output
+    from seisblock.report.text.slide_study import azimuth_table
     from seisblock.studies.sliding import slide_study, worst_directions
 
     base_options = {name: value for name, value in single.items() if name != "vertical"}
@@ -166,7 +167,8 @@ def _run_single(
         output,
         responses=responses,
         tables=lambda: chain(
-            text_output.tables(responses, sweep, gal=output.gal),
+            tables(responses, gal=output.gal),
+            azimuth_table(sweep, gal=output.gal),
             slide_hint(source, base.mu, single.get("mu_kinetic"), slips=not base.slope_deg and any(r.outcome.slips for r in responses)),
         ),
     )
@@ -181,7 +183,7 @@ def _run_study(
     fixed: dict[str, Any],
 ) -> None:
     """Solve all combinations of parameters."""
-    from seisblock.report.io.atomic import write_table
+    from seisblock.output.io.atomic import write_table
     from seisblock.report.json.slide import study_document
     from seisblock.report.text import slide_study as text_output
     from seisblock.studies.sliding import slide_study, worst_directions

@@ -11,7 +11,7 @@ import click
 from seisblock.bodies.block import Block
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.build import solver_options
-from seisblock.cli.command import Command
+from seisblock.cli.command import Command, docstring
 from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.core.errors import BodyError
@@ -31,7 +31,7 @@ def solver_command(name: str) -> click.Command:
     solver = get_solver(name)
     if Block not in solver.bodies:
         raise BodyError("{solver} does not accept a rigid block: write a separate command for it", solver=name)
-    help_text = import_module(f"seisblock.models.{name}").__doc__
+    help_text = docstring(import_module(f"seisblock.models.{name}"))
     function: Callable[..., Any] = output_options()(_run(solver))
     for decorate in (solver_options(solver.options), block_options, record_options):
         function = decorate(function)
@@ -48,8 +48,8 @@ def _run(solver: Solver) -> Callable[..., None]:
         from seisblock.cli.console import info
         from seisblock.cli.load_records import load_records, selected_motions
         from seisblock.cli.write_results import write_results
-        from seisblock.report.json.solver import document
-        from seisblock.report.text.solver import tables
+        from seisblock.output.json.solver import document
+        from seisblock.output.text.solver import tables
 
         options = solver.make_options({field: params.pop(field) for field in names if field in params})
         choice = choose_block({**params, "restitution": None, "gal": output.gal})

@@ -13,22 +13,30 @@ from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
+from seisblock.cli.option_checks import given_flags
 from seisblock.cli.options import Source, criterion_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.sampling_options import pop_spreads, version_options
 from seisblock.cli.types import INSET, MU, ContactType
 from seisblock.cli.write_results import write_results
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.models.stack.options import EDGES, GRID, RIGID, SPRINGS, StackOptions
 
 if TYPE_CHECKING:
     from seisblock.bodies.edge_wear import EdgeWear
     from seisblock.bodies.pile.pile import Pile
+    from seisblock.records import Motion
 
 DEFAULT_PILE = "wagata"
 
 VARIED_PARAMETERS = ("size", "inset", "mu", "amplitude", "azimuth")
 """Parameters that vary between the samples of a pile."""
+
+PILE_RUNS = 20
+"""Default number of samples, each of which costs as much as the run itself."""
+
+MAX_STONE_SECONDS = 300.0
+"""Largest product of stones and seconds of the record up to which a pile has samples by default: the answer then takes seconds."""
 
 MAX_GRID = 29
 """Coarsest grid of the criterion study: one height is left."""
@@ -103,7 +111,7 @@ MAX_GRID = 29
     type=click.IntRange(1, MAX_GRID),
     default=1,
     show_default=True,
-    help="--criterion: interval of the amplitudes and heights computed.",
+    help="--criterion: compute every N-th amplitude and height.",
 )
 @option(
     "--resume",
@@ -111,7 +119,7 @@ MAX_GRID = 29
     metavar="FILE",
     help="--criterion: file of finished sines, from which an interrupted study continues.",
 )
-@version_options(*VARIED_PARAMETERS, runs=0)
+@version_options(*VARIED_PARAMETERS, runs=PILE_RUNS)
 @solver_options(StackOptions, "gravity")
 @output_options()
 def stack(
@@ -132,7 +140,8 @@ def stack(
 
     Both horizontal components and the vertical one act together; +x of the pile is the component's positive direction, without
     --component that of the first component of the record. Slips are relative to the stone below, m. The response of a pile is chaotic:
-    --runs 100 gives the probability of falling of each stone over samples of pile and motion.
+    --runs 100 gives the probability of falling of each stone over samples of pile and motion; by default there are none where the product
+    of stones and seconds exceeds 300.
     """
     from seisblock.bodies.pile.contact import PileContact
     from seisblock.core.errors import ParameterError
@@ -158,7 +167,7 @@ def stack(
     )
     widths = pop_spreads(params, *VARIED_PARAMETERS)
     if criterion:
-        if params["runs"]:
+        if given_flags(["runs"]) and params["runs"]:
             raise ParameterError("--runs has no effect with --criterion: omit it")
         if not (params["mu_kinetic"] is None and params["restitution"] is None):
             raise ParameterError("--mu-kinetic and --restitution have no effect with --criterion: omit them")
@@ -200,16 +209,22 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
     from seisblock.models.stack.solve import solve_stack
     from seisblock.readers._memory import trim_heap
     from seisblock.report.json.stack import document
-    from seisblock.report.text import stack as text_output
+    from seisblock.report.text.assessment import first_probability
+    from seisblock.report.text.stack import tables
+    from seisblock.studies.assessment import assess_pile
     from seisblock.studies.model_comparison import compare_pile_models
-    from seisblock.studies.respond.pile_probability import PileVariation, stack_probability
+    from seisblock.studies.respond.pile_probability import summarize
+    from seisblock.studies.respond.probability import check_moved
+    from seisblock.studies.sampling import ParameterVariation, sample
 
-    versions = PileVariation(**widths)
+    variation = ParameterVariation(**widths)
     inset_given = click.get_current_context().get_parameter_source("vary_inset") is not ParameterSource.DEFAULT
-    if inset_given and versions.inset and params["points"] != EDGES:
+    if inset_given and variation.inset and params["points"] != EDGES:
         raise ParameterError("--vary-inset has no effect with --contact grid={points}: omit one of them", points=params["points"])
-    study_options = {"versions": versions, **{name: params.pop(name) for name in ("runs", "seed")}, "moved_m": params.pop("moved")}
+    runs, seed, moved = (params.pop(name) for name in ("runs", "seed", "moved"))
+    check_moved(moved)
     options = StackOptions(contact=contact, **params)
+    is_requested = bool(given_flags(["runs", "moved", "seed", *(f"vary_{name}" for name in VARIED_PARAMETERS)]))
     responses, extras = [], []
     for record in load_records(source):
         directions = list(selected_motions(record, source))
@@ -219,17 +234,34 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
             with progress(name) as advance:
                 responses.append(solve_stack(body, motion, **replace(options, progress=advance).keywords()))
             trim_heap()  # memory freed by the compiler is needed for long records
-            extra: dict[str, Any] = {"agreement": compare_pile_models(responses[-1])}
-            if study_options["runs"]:
+            extra: dict[str, Any] = {}
+            count = runs if is_requested or _is_quick(body, motion) else 0
+            if runs and not count:
+                text = N_(
+                    "no samples by default of {stones} stones over {seconds:.0f} s: give --runs {runs} for the probability of falling"
+                )
+                info(text, stones=len(body.stones), seconds=motion.samples * motion.dt, runs=runs)
+            if count:
                 with progress("samples {name}", name=name) as advance:
-                    extra["probability"] = stack_probability(body, motion, progress=advance, options=options, **study_options)
+                    samples = sample("stack", body, motion, options, count, variation, seed=seed, progress=advance)
+                extra["probability"] = summarize(samples, motion.azimuth_deg, moved)
+                extra["assessment"] = assess_pile(responses[-1], samples, moved_m=moved)
+                extra["agreement"] = extra["assessment"].comparison
+            else:
+                extra["agreement"] = compare_pile_models(responses[-1])
             extras.append(extra)
     write_results(
-        document(responses, body, contact, extras),
+        document(responses, extras),
         output,
         responses=responses,
-        tables=lambda: text_output.tables(responses, extras, gal=output.gal),
+        tables=lambda: tables(responses, extras, gal=output.gal),
+        probability=first_probability(extras),
     )
+
+
+def _is_quick(body: Pile, motion: Motion) -> bool:
+    """Return whether the samples of a pile take seconds: those of one stone, or of few stones under a short record."""
+    return len(body.stones) == 1 or len(body.stones) * motion.samples * motion.dt <= MAX_STONE_SECONDS
 
 
 def _run_study(
@@ -245,7 +277,7 @@ def _run_study(
     reinforced: bool,
 ) -> None:
     from seisblock.cli.progress import progress
-    from seisblock.report.json.stack import study_document
+    from seisblock.report.json.stack_study import study_document
     from seisblock.report.text import stack_criterion as text_output
     from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, record_thresholds, rigid_levels
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from seisblock.core.i18n import Message, gettext
+from seisblock.core.i18n import N_, Message, gettext, join_sentences
 
 KNOWN_KEYS = ("known", "codes", "names")
 """Fields of a message that list the known names."""
@@ -85,9 +85,17 @@ def did_you_mean(text: str, name: str | None) -> str:
 
 @contextmanager
 def suggest_options(command: click.Command, ctx: click.Context) -> Iterator[None]:
-    """Add a suggestion to click's error about an unknown option."""
+    """Add a suggestion to click's error about an unknown option; name a missing parameter within the sentence."""
     try:
         yield
+    except click.MissingParameter as error:
+        if error.param is None:
+            raise
+        # click appends the name and an English full stop to its translated text
+        text = N_("Missing option {name}.") if isinstance(error.param, click.Option) else N_("Missing argument {name}.")
+        choices = error.param.type.get_missing_message(error.param, ctx)
+        sentences = [gettext(text, name=error.param.get_error_hint(ctx)), error.message, choices or ""]
+        raise click.UsageError(join_sentences(filter(None, sentences)), ctx) from None
     except click.NoSuchOption as error:
         names = [
             name for parameter in command.get_params(ctx) for name in (*parameter.opts, *parameter.secondary_opts) if name.startswith("--")

@@ -10,15 +10,20 @@ from click.shell_completion import CompletionItem
 
 from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
 from seisblock.cli.command import Finite
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.core.errors import InputError
 from seisblock.core.format_names import format_names
 from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.core.jma_scale import parse_jma_intensity
 from seisblock.core.limits import MAX_JOINT_POINTS, MAX_VALUES, check_limit
 from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_mass, to_halfwidth
 from seisblock.records.floor import Storey, parse_storey
 
 MIN_SIDE, MAX_SIDE = 0.04, 1.2
 """Smallest and largest side of a figure, m."""
+
+SIZES = (N_("width"), N_("height"), N_("depth"))
+"""Parameters named in errors of their lengths; other options are named by click alone."""
 
 
 class Count(click.ParamType):  # type: ignore[type-arg]
@@ -84,7 +89,7 @@ class Length(click.ParamType):  # type: ignore[type-arg]
         if isinstance(value, float):
             return value  # default, or already converted
         try:
-            return parse_length(value, quantity=lazy_gettext((param.name or "length").replace("_", " ") if param else "length"))
+            return parse_length(value, quantity=lazy_gettext(param.name if param and param.name in SIZES else "length"))
         except InputError as error:
             self.fail(gettext(error.message), param, ctx)
 
@@ -131,9 +136,6 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
 
     name = "number|list|range"
 
-    def __init__(self, *, unit: Any = None) -> None:
-        self.unit = unit
-
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
         """Return the values, in the order given."""
         if isinstance(value, tuple):
@@ -147,7 +149,7 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
 
     def _range(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
         """Return the values of one part of the list."""
-        pieces = [self._number(piece) for piece in text.split(":")]
+        pieces = [self._number(piece, param, ctx) for piece in text.split(":")]
         if len(pieces) == 1:
             return pieces
         if len(pieces) != 3:
@@ -162,12 +164,33 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
             self.fail(gettext(error.message), param, ctx)
         return [round(first + i * step, 12) for i in range(count)]
 
-    def _number(self, text: str) -> float:
+    def _number(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return one finite number."""
-        value = float(self.unit(text)) if self.unit else float(text)
+        value = float(text)
         if not math.isfinite(value):
             raise ValueError(text)
         return value
+
+
+class Shares(Floats):
+    """Numbers or percentages, ``0.2`` or ``20%``, as :class:`Floats`."""
+
+    def _number(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return one share."""
+        if to_halfwidth(text).strip().endswith("%"):
+            return MU.convert(text, param, ctx)
+        return super()._number(text, param, ctx)
+
+
+class Quantities(Floats):
+    """Numbers with units as :class:`Floats`; the type of one value words its errors."""
+
+    def __init__(self, item: Length | Mass) -> None:
+        self.item = item
+
+    def _number(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return one value in SI."""
+        return self.item.convert(text, param, ctx)
 
 
 class SizeType(click.ParamType):  # type: ignore[type-arg]
@@ -230,19 +253,46 @@ class StoreyType(click.ParamType):  # type: ignore[type-arg]
             self.fail(gettext(error.message), param, ctx)
 
 
-def _share(text: str) -> float:
-    """Return a share given as 0.2 or 20%."""
-    return float(MU.convert(text, None, None)) if to_halfwidth(text).strip().endswith("%") else float(text)
+class Sides(click.ParamType):  # type: ignore[type-arg]
+    """One side of a body in plan, ``short`` or ``long``, or both as a list."""
+
+    name = "text"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
+        """Return the sides without duplicates, in the order given."""
+        if isinstance(value, tuple):
+            return value
+        choice = SuggestingChoice(["short", "long"])
+        return tuple(dict.fromkeys(choice.convert(part.strip(), param, ctx) for part in value.split(",")))
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Complete the name of a side."""
+        return [CompletionItem(name) for name in ("short", "long") if name.startswith(incomplete)]
+
+
+class JmaType(click.ParamType):  # type: ignore[type-arg]
+    """JMA intensity: ``6+``, ``5弱`` or a number."""
+
+    name = "intensity"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the instrumental intensity."""
+        try:
+            return parse_jma_intensity(value)
+        except InputError as error:
+            self.fail(gettext(error.message), param, ctx)
 
 
 LENGTH = Length()
 MASS = Mass()
 INSET = InsetType()
 FLOATS = Floats()
-LENGTHS = Floats(unit=parse_length)
+LENGTHS = Quantities(LENGTH)
 MU = ShareType()
-MUS = Floats(unit=_share)
-MASSES = Floats(unit=parse_mass)
+MUS = Shares()
+MASSES = Quantities(MASS)
 WINDOW = WindowType()
 STOREY = StoreyType()
+JMA = JmaType()
 SIZE = SizeType()
+SIDES = Sides()

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from seisblock.cli import shell_completion
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -25,6 +26,9 @@ DIMENSIONS = ("width", "depth", "height", "stiffness")
 SIZES = (*DIMENSIONS, "mass", "frequency_vertical")
 """Groups of option names."""
 
+DEFAULT_BODY = "machine"
+"""Body without sizes."""
+
 
 def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[tuple[float, ...], bool] | None:
     """Return the frequency ratios and whether they were given as a range."""
@@ -33,14 +37,35 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
 
 @click.command(
     cls=Command,
-    essential=("--width", "--depth", "--height", "--frequency-vertical", "--damping", "--harmonic", "--alpha", "--figure", "--vertical"),
+    essential=(
+        "--body",
+        "--width",
+        "--depth",
+        "--height",
+        "--frequency-vertical",
+        "--damping",
+        "--harmonic",
+        "--alpha",
+        "--figure",
+        "--vertical",
+    ),
     examples=(
+        "seisblock uplift record.csv",
         "seisblock uplift --width 1.2 --height 3 --frequency-vertical 8 --plot uplift.png",
         "seisblock uplift --harmonic --alpha 1 --damping 0.02,0.05,0.1 --plot regions.png",
         "seisblock uplift --figure 11 --corner 4 --plot fig11.png",
     ),
 )
 @harmonic_record_options
+@option(
+    "--body",
+    "--block",
+    "body",
+    metavar="NAME|FILE",
+    shell_complete=shell_completion.complete_bodies("springs"),
+    section="Body",
+    help="Bundled body on springs or TOML file; sizes and other options replace its values. [default: machine, without sizes]",
+)
 @option("--width", type=LENGTH, section="Body", help="Side a of the base along the motion, m or with a unit.")
 @option("--depth", type=LENGTH, section="Body", help="Side b of the base across the motion, m or with a unit. [default: --width]")
 @option("--height", type=LENGTH, section="Body", help="Height H, m or with a unit; centre of gravity at half of it.")
@@ -79,7 +104,9 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
 )
 @solver_options(UpliftOptions, "gravity")
 @output_options()
-def uplift(source: Source, output: OutputOptions, gravity: float, harmonic: bool, figure: str | None, **params: Any) -> None:
+def uplift(
+    source: Source, output: OutputOptions, gravity: float, harmonic: bool, figure: str | None, body: str | None, **params: Any
+) -> None:
     """Uplift of a rigid block on springs at its four corners (Okumura et al. 1987).
 
     With a record: three-component motion, corner springs without tension; time of first uplift, corner, height and duration. Corners
@@ -87,32 +114,37 @@ def uplift(source: Source, output: OutputOptions, gravity: float, harmonic: bool
     the smallest A/g that lifts a corner, against frequency.
     """
     if harmonic or figure:
+        reject_with("--harmonic" if figure is None else "--figure", ["body"])
         _run_harmonic(source, output, int(figure) if figure else None, params)
         return
-    from seisblock.bodies.spring_factory import spring_block
+    from seisblock.bodies.spring_factory import load_springs, spring_block
+    from seisblock.models.uplift.describe import tables
     from seisblock.models.uplift.solve import solve_uplift
-    from seisblock.report.json.uplift import document
-    from seisblock.report.text import uplift as text_output
+    from seisblock.output.json.solver import document
 
     harmonic_flags = [_option_flag(name) for name in (*SHAKING, "frequency_ratio", "corner") if params.pop(name) is not None]
     if harmonic_flags:
         raise ParameterError("{only} requires --harmonic: add --harmonic, or omit {only}", only=harmonic_flags)
-    body = spring_block(**{name: _single_value(name, value) for name, value in params.items()})
+    values = {name: _single_value(name, value) for name, value in params.items()}
+    if body is None and all(params[name] is None for name in ("width", "height", "stiffness")):
+        body = DEFAULT_BODY
+        info("no body given: using the bundled {name}", name=body)
+    springs = spring_block(**values) if body is None else load_springs(body, **values)
     responses = [
-        solve_uplift(body, motion, gravity=gravity) for record in load_records(source) for motion in selected_motions(record, source)
+        solve_uplift(springs, motion, gravity=gravity) for record in load_records(source) for motion in selected_motions(record, source)
     ]
     write_results(
-        document(responses, body),
+        document(responses),
         output,
         responses=responses,
-        tables=lambda: text_output.tables(responses, gal=output.gal),
+        tables=lambda: tables(responses, gal=output.gal),
     )
 
 
 def _run_harmonic(source: Source, output: OutputOptions, figure: int | None, params: dict[str, Any]) -> None:
     """Run ``--harmonic``."""
     from seisblock.cli.progress import progress
-    from seisblock.report.json.uplift import harmonic_document
+    from seisblock.report.json.uplift_study import harmonic_document
     from seisblock.report.text import uplift_harmonic as text_output
     from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_regions
 

@@ -31,8 +31,8 @@ def validate(
     amount than documented.
     """
     from seisblock.cli.progress import progress
-    from seisblock.report.io.atomic import check_distinct_outputs, write_text
-    from seisblock.report.io.suffix import check_text_suffix
+    from seisblock.output.io.atomic import check_distinct_outputs, write_text
+    from seisblock.output.io.suffix import check_text_suffix
     from seisblock.report.text import validate as text_output
     from seisblock.validation import cases_of
     from seisblock.validation.case import count_verdicts
@@ -55,7 +55,7 @@ def validate(
             write_text(html, page)
             info("wrote {path}", path=html)
     if as_json:
-        from seisblock.report.json.encode import to_json
+        from seisblock.output.json.encode import to_json
         from seisblock.report.json.validate import document
 
         print_result(to_json(document(results, quick=quick)))

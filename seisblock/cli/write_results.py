@@ -6,23 +6,29 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seisblock.cli.console import info, print_result, print_tables, warning
+from seisblock.cli.console import info, print_default_record, print_result, print_tables, warning
 from seisblock.cli.output import STDOUT, OutputOptions, check_output
 from seisblock.cli.progress import close_line, progress, set_task
 from seisblock.core.errors import OutputError
-from seisblock.core.i18n import escape_control, get_locale, use_locale
+from seisblock.core.i18n import escape_control, format_share, get_locale, gettext, use_locale
+from seisblock.core.registry import get_solver
 from seisblock.core.results import Response
-from seisblock.report.json.encode import to_json
-from seisblock.report.json.schema import Document
-from seisblock.report.registry import animation_writer, response_figure
+from seisblock.output.io.atomic import byte_order_mark
+from seisblock.output.json.encode import to_json
+from seisblock.output.json.schema import Document
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from seisblock.report.animation.render import AnimationOptions
+    from seisblock.output.animation.render import AnimationOptions
+
+
+AT_REST = ("rest", "stick")
+"""Phases without motion relative to the ground."""
 
 
 def write_results(
@@ -34,6 +40,7 @@ def write_results(
     csv: Callable[[Path], None] | None = None,
     figure: Callable[[], Figure] | None = None,
     animation: Callable[[Path, AnimationOptions], None] | None = None,
+    probability: float | None = None,
 ) -> None:
     """Print the results as tables or JSON and write the requested files.
 
@@ -52,11 +59,14 @@ def write_results(
         Returns the matplotlib Figure of ``--plot``, default that of the responses.
     animation : callable
         Writes the file of ``--animate``, default the animation of the responses.
+    probability : float or None
+        Overturning probability of the first response, for the title of the animation.
     """
     set_task("preparing the results")
     if responses:
-        figure = figure or (lambda: response_figure(responses, gal=output.gal))
-        animation = animation or animation_writer(responses)
+        figure = figure or (lambda: _response_figure(responses, gal=output.gal))
+        if animation is None and get_solver(responses[0].model).animate is not None:
+            animation = partial(_animate, responses[0])
     for message in document.warnings:
         warning(message)
     if output.plot is not None and figure is None:
@@ -64,10 +74,15 @@ def write_results(
     if output.animate is not None and animation is None:
         raise OutputError("{command} has no animation here: omit --animate", command=document.command)
     check_output(output)
+    if STDOUT in (output.csv, output.plot):
+        print_default_record(err=True)
     if output.csv is not None:
-        from seisblock.report.io.history_csv import write_histories
+        from seisblock.output.io.history_csv import write_histories
 
-        write = csv or (lambda path: write_histories(path, responses))
+        def write(path: Path) -> None:
+            with byte_order_mark(output.excel):
+                csv(path) if csv is not None else write_histories(path, responses)
+
         if output.csv == STDOUT:
             _to_stdout(write)
             return
@@ -75,8 +90,13 @@ def write_results(
             write(output.csv)
         info("wrote {file}", file=str(output.csv))
     if output.animate is not None and animation is not None:
-        _write_animation(animation, output)
-        info("wrote {path}", path=output.animate)
+        phases = responses[0].phases if responses else ()
+        # a model without phases tells by its outcome
+        if (phases and all(phase.name in AT_REST for phase in phases)) or (responses and not getattr(responses[0].outcome, "moved", True)):
+            warning("the object remains at rest: no animation written")
+        else:
+            _write_animation(animation, output, probability)
+            info("wrote {path}", path=output.animate)
     if output.plot is not None and figure is not None:
         _write_figure(figure, output.plot, output)
         if output.plot == STDOUT:
@@ -87,6 +107,16 @@ def write_results(
         print_result(to_json(document))
     else:
         print_tables(tables(), details=output.details)
+
+
+def _response_figure(responses: Sequence[Response[Any]], *, gal: bool) -> Figure:
+    from seisblock.output.figures.solver import response_figure
+
+    return response_figure(responses, gal=gal)
+
+
+def _animate(response: Response[Any], path: Path, options: AnimationOptions) -> None:
+    get_solver(response.model).presenter("animate")(response, path, options)
 
 
 def _to_stdout(write: Callable[[Path], None]) -> None:
@@ -103,9 +133,9 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
 
 def _write_figure(figure: Callable[[], Figure], target: Path, output: OutputOptions) -> None:
     """Write the figure to a file, or as .png to stdout."""
-    from seisblock.report.figures.fit_size import fit_figure_size
-    from seisblock.report.figures.fonts import MISSING_GLYPHS, NO_FONT, build_localized, drawable_locale, has_missing_glyphs
-    from seisblock.report.figures.style import save, save_png
+    from seisblock.output.figures.fit_size import fit_figure_size
+    from seisblock.output.figures.fonts import MISSING_GLYPHS, NO_FONT, build_localized, drawable_locale, has_missing_glyphs
+    from seisblock.output.figures.style import save, save_png
 
     if target == STDOUT and sys.stdout.isatty():
         raise OutputError("--plot - writes a .png to stdout, which is a terminal: redirect it, or give a file name")
@@ -122,9 +152,9 @@ def _write_figure(figure: Callable[[], Figure], target: Path, output: OutputOpti
         save_png(fig, sys.stdout.buffer)
 
 
-def _write_animation(animation: Callable[[Path, AnimationOptions], None], output: OutputOptions) -> None:
-    from seisblock.report.animation.render import AnimationOptions
-    from seisblock.report.figures.fonts import NO_FONT, drawable_locale
+def _write_animation(animation: Callable[[Path, AnimationOptions], None], output: OutputOptions, probability: float | None) -> None:
+    from seisblock.output.animation.render import AnimationOptions
+    from seisblock.output.figures.fonts import NO_FONT, drawable_locale
 
     assert output.animate is not None
     locale = get_locale()
@@ -132,4 +162,5 @@ def _write_animation(animation: Callable[[Path, AnimationOptions], None], output
         info(NO_FONT)
         locale = drawable_locale()
     with progress("drawing") as advance, use_locale(locale):
-        animation(output.animate, AnimationOptions(output.slow, advance, output.gal))
+        text = "" if probability is None else gettext("overturning probability {share}", share=format_share(probability))
+        animation(output.animate, AnimationOptions(output.slow, advance, output.gal, text))

@@ -70,7 +70,7 @@ def bounded_repr(value: Any) -> str:
 
     Examples
     --------
-    >>> from seisblock import EdgeWear
+    >>> from seisblock.bodies import EdgeWear
     >>> bounded_repr(EdgeWear(0.01))
     'EdgeWear(length_m=0.01, share=0.0)'
     """

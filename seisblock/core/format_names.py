@@ -13,6 +13,6 @@ def format_names() -> list[str]:
     Examples
     --------
     >>> format_names()[:3]
-    ['AT2', 'COSMOS', 'CSMIP']
+    ['AFAD', 'ASDF', 'AT2']
     """
     return sorted(file.stem.upper().replace("_", "-") for file in FORMAT_FOLDER.glob("[!_]*.py"))

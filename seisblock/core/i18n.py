@@ -15,6 +15,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from enum import StrEnum
 from functools import cache
 from pathlib import Path
 from string import Formatter
@@ -40,7 +41,7 @@ _VALUE_MARK = "\0"
 _CJK_SPACE = re.compile(rf"(?<=[\u3040-\u9fff]) (?={_VALUE_MARK}[\u3040-\u9fff])|(?<=[\u3040-\u9fff]{_VALUE_MARK}) (?=[\u3040-\u9fff])")
 """Blank between template and value: kept between Japanese and Latin text, removed between two Japanese parts."""
 
-MAX_MESSAGE_LENGTH = 1200
+MAX_MESSAGE_LENGTH = 400
 """Maximum length of a message, characters."""
 
 _locale: ContextVar[str | None] = ContextVar("locale", default=None)
@@ -89,8 +90,23 @@ def N_(word: str) -> str:
     return word
 
 
+class Term(StrEnum):
+    """Enumeration of outcomes or modes whose values, marked by :func:`N_`, are data; a member shows as the plain string.
+
+    Examples
+    --------
+    >>> class End(Term):
+    ...     STILL_MOVING = N_("still moving")
+    >>> End.STILL_MOVING, End.STILL_MOVING == "still moving", End("still moving").name
+    ('still moving', True, 'STILL_MOVING')
+    """
+
+    def __repr__(self) -> str:
+        return repr(self.value)
+
+
 def gettext(text: str, /, **values: Any) -> str:
-    """Return a text translated into the active language.
+    """Translate a message into the active language.
 
     Parameters
     ----------
@@ -255,7 +271,7 @@ def truncate(text: str) -> str:
     ----------
     text : str
     """
-    return text if len(text) <= MAX_MESSAGE_LENGTH else f"{text[: MAX_MESSAGE_LENGTH - 200]} ... {text[-150:]}"
+    return text if len(text) <= MAX_MESSAGE_LENGTH else f"{text[: MAX_MESSAGE_LENGTH - 165]} ... {text[-160:]}"
 
 
 def _translate(text: Message, locale: str) -> str:

@@ -86,6 +86,9 @@ VERTICAL = option(
 )
 """Metadata of the vertical ground motion: a switch or a factor; None applies it where the record has a vertical component."""
 
+ACROSS = option(N_("Apply or omit the other horizontal component."), "--across/--no-across", document=bool)
+"""Metadata of the horizontal ground motion along y: a switch or a factor."""
+
 GRAVITY = option(N_("Acceleration of gravity, m/s^2."), "--gravity", unit="m/s^2", interval="(0, inf)", label=N_("gravity"), metavar="M/S2")
 """Metadata of the acceleration of gravity."""
 

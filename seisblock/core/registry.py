@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import pkgutil
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cache, cached_property
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 ValueMap: TypeAlias = Mapping[str, Any]
 RowResult: TypeAlias = tuple[ValueMap, Sequence[str]]
 """Scalar fields of an outcome, and its warnings."""
+
+Presenter: TypeAlias = str | Callable[..., Any] | None
+"""Function that presents responses, or its reference ``package.module:name``, which is imported on use."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +72,16 @@ class Solver:
     damage_states : mapping of str to str
         Limit states of a fragility by run, with their fields of the outcome: ``overturn``; ``slip``, a displacement, m, or a mapping of
         names to displacements.
-    describe : callable or None
-        ``describe(response) -> str``: the result in one sentence.
+    describe : callable, str or None
+        ``describe(response, *, gal) -> str``: the result in one sentence with the direction; default: whether the event occurred.
+    plot : callable, str or None
+        ``plot(responses, *, gal) -> Figure``; default: a panel per channel. A reference, so that a text output does not load matplotlib.
+    animate : callable, str or None
+        ``animate(response, path, options)`` writes an animation; default: none.
+    section : str or None
+        Reference of a :class:`~seisblock.output.text.section.Section`, the model's section in the HTML report.
+    document : str or None
+        Reference of a :class:`~seisblock.output.json.solver.ModelDocument`; default: options, body and outcome as they are.
     solve_rows : callable or None
         ``solve_rows(bodies, motion) -> dict of name to RowResult``: several bodies at once, bit by bit as single runs; bodies without
         a result are left out.
@@ -79,6 +91,8 @@ class Solver:
         ``threshold(body, options) -> (right, left)``: horizontal accelerations, m/s^2, at which a body at rest starts to move to +x and to
         -x under its static weight (rocks, slips or lifts); infinite where it does not move. Motion to +x starts under ground acceleration
         to -x.
+    spatial : bool
+        True if the body meets all components in three dimensions, with its own orientation; else it is reduced to the plane of the motion.
     topics : tuple of str
         Topics of its references, see :mod:`seisblock.references`.
     """
@@ -96,10 +110,15 @@ class Solver:
     overturned: str | None = None
     overturned_values: tuple[Any, ...] = (True,)
     damage_states: Mapping[str, str] = field(default_factory=dict)
-    describe: Callable[[Response[Any]], str] | None = None
+    describe: Presenter = None
+    plot: Presenter = None
+    animate: Presenter = None
+    section: str | None = None
+    document: str | None = None
     solve_rows: Callable[[Sequence[SolverBody], Any], dict[str, RowResult]] | None = None
     row_options: tuple[str, ...] = ()
     threshold: Callable[[Any, Any], tuple[float, float]] | None = None
+    spatial: bool = False
     topics: tuple[str, ...] = ()
 
     @cached_property
@@ -115,8 +134,8 @@ class Solver:
         ParameterError
             Naming them.
         """
-        known = {option.name for option in fields(self.options)} | self.body_columns
-        unknown = [f"`{name}`" for name in values if name not in known]
+        allowed_names = {option.name for option in fields(self.options)} | self.body_columns
+        unknown = [f"`{name}`" for name in values if name not in allowed_names]
         if unknown:
             raise ParameterError("{solver} has no option {names}: omit it", solver=self.name, names=unknown)
 
@@ -140,6 +159,11 @@ class Solver:
     def overturns(self, row: ValueMap) -> bool | None:
         """Return whether the body overturned in a row with a result; None for a solver without overturning."""
         return None if self.overturned is None else row[self.overturned] in self.overturned_values
+
+    def presenter(self, kind: str) -> Any:
+        """Return ``describe``, ``plot``, ``animate``, ``section`` or ``document`` of the solver, imported now; None if it has none."""
+        value = getattr(self, kind)
+        return pkgutil.resolve_name(value) if isinstance(value, str) else value
 
     def ignored_columns(self, columns: Iterable[str]) -> list[str]:
         """Return the columns of a body that the solver does not use."""

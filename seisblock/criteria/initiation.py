@@ -16,14 +16,22 @@ import numpy as np
 
 from seisblock.bodies.block import Block
 from seisblock.core import checks
-from seisblock.core.i18n import N_
+from seisblock.core.i18n import N_, Term
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records import Motion
 from seisblock.records._validation import Gain, vertical_gain
 from seisblock.records.motion import ALONG, UP
 
-REST, SLIDE, ROCK, SLIDE_ROCK = N_("rest"), N_("slide"), N_("rock"), N_("slide-rock")
-"""Modes at the initiation of motion."""
+
+class Mode(Term):
+    """Modes of motion in tables, JSON and figures; the last two do not occur at the initiation."""
+
+    REST = N_("rest")
+    SLIDE = N_("slide")
+    ROCK = N_("rock")
+    SLIDE_ROCK = N_("slide-rock")
+    FLIGHT = N_("flight")
+    OVERTURNED = N_("overturned")
 
 
 def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity: float = STANDARD_GRAVITY) -> tuple[float, float]:
@@ -110,7 +118,7 @@ def friction_to_rock(block: Block, ratio: float) -> float | None:
     return (ratio - h * q) / (1.0 + b * q)
 
 
-def first_mode(block: Block, mu: float, ratio: float) -> str:
+def first_mode(block: Block, mu: float, ratio: float) -> Mode:
     """Return the mode initiated by a sudden A: rest, slide, rock or slide-rock ([Shenton1996]_).
 
     Static and kinetic friction are equal.
@@ -132,7 +140,7 @@ def first_mode(block: Block, mu: float, ratio: float) -> str:
     mu = checks.non_negative("the friction coefficient mu", mu)
     required_mu = friction_to_rock(block, ratio)
     if required_mu is None:
-        return REST if ratio <= mu else SLIDE
+        return Mode.REST if ratio <= mu else Mode.SLIDE
     if mu >= required_mu:
-        return ROCK
-    return SLIDE if mu * block.centre <= min(block.arms) else SLIDE_ROCK
+        return Mode.ROCK
+    return Mode.SLIDE if mu * block.centre <= min(block.arms) else Mode.SLIDE_ROCK

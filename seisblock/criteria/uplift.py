@@ -122,7 +122,7 @@ def harmonic_uplift_ratio(
         Direction of the shaking: azimuth from x towards y, and angle from the vertical.
     corner : int or None
         Corner 1 to 4; None for the minimum over all corners. The paper uses corner 4 only, which under a vertical component
-        (0 < rho < 90) gives up to nine times the minimum.
+        (0 < rho < 90) gives up to 3.6 times the minimum inside its figures (A/g up to 1).
 
     Returns
     -------

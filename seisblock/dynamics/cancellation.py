@@ -55,7 +55,7 @@ def check_cancelled() -> None:
 
 
 def report_progress(completed: int, total: int) -> None:
-    """Pass the number of completed sample intervals to the progress callback, if any."""
+    """Report progress: pass the number of completed sample intervals to the progress callback, if any."""
     callback = _progress_callback.get()
     if callback is not None:
         callback(completed, total)

@@ -1,4 +1,4 @@
-"""Integration loop for hybrid systems: Taylor series within a mode, guards that end the mode, resets.
+"""Integration loop for hybrid systems with event detection: Taylor series within a mode, guards that end the mode, resets.
 
 Ground acceleration is piecewise linear between samples. Within one sample interval and one mode the state is a power
 series in time whose coefficients the model computes by recurrence, together with the series of its guards. The

@@ -13,9 +13,9 @@ from seisblock.core._display import DisplayMixin
 from seisblock.core.limits import CHUNK_SIZE
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import KINE
-from seisblock.measures.intensity import orthogonal_components
 from seisblock.records.oscillator import exact_step
 from seisblock.records.record import Record
+from seisblock.records.seismic_intensity import orthogonal_components
 
 PERIODS = tuple(round(1.6 + 0.2 * k, 1) for k in range(32))
 """Periods of the oscillators, 1.6 to 7.8 s ([JMA2016]_ method)."""

@@ -108,10 +108,7 @@ def response_spectrum(
     if acceleration.size < 2:
         raise ParameterError("a motion needs at least 2 samples, found {count}", count=acceleration.size)
     checks.positive("the sampling interval", dt, "s")
-    period_s = default_periods() if periods is None else np.atleast_1d(checks.float_array("the periods", periods))
-    if not (np.isfinite(period_s).all() and (period_s > 0).all()):
-        raise ParameterError("the periods of a response spectrum must be positive")
-    checks.in_interval("the damping ratio", damping, "[0, 1)")
+    period_s = check_periods(periods, damping)
     resampled: dict[int, FloatArray] = {1: np.ascontiguousarray(acceleration)}
     peaks = np.empty((3, period_s.size))
     for column, period in enumerate(period_s):
@@ -122,6 +119,21 @@ def response_spectrum(
             resampled[subdivisions] = np.interp(np.arange((n - 1) * subdivisions + 1) / subdivisions, np.arange(n), acceleration)
         peaks[:, column] = oscillator_peaks(resampled[subdivisions], dt / subdivisions, 2.0 * math.pi / period, damping)
     return ResponseSpectrum(period_s, peaks[0], peaks[1], peaks[2], damping)
+
+
+def check_periods(periods: ArrayLike | None, damping: float) -> FloatArray:
+    """Return the periods of a response spectrum, (m,), s, those of :func:`default_periods` for None; check periods and damping.
+
+    Raises
+    ------
+    ParameterError
+        If a period is not positive, or the damping is outside [0, 1).
+    """
+    period_s = default_periods() if periods is None else np.atleast_1d(checks.float_array("the periods", periods))
+    if not (np.isfinite(period_s).all() and (period_s > 0).all()):
+        raise ParameterError("the periods of a response spectrum must be positive")
+    checks.in_interval("the damping ratio", damping, "[0, 1)")
+    return period_s
 
 
 def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: float = SMOOTHING_HZ) -> tuple[FloatArray, FloatArray]:

@@ -21,13 +21,15 @@ from seisblock.measures.frequency import (
     peak_pulse,
     pga_pgv_frequency,
 )
-from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, missing_intensity_reason, significant_duration
+from seisblock.measures.intensity import arias_intensity, cumulative_absolute_velocity, jma_class, significant_duration
 from seisblock.measures.long_period import LongPeriodMotion, long_period_motion
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
+from seisblock.measures.rotd import RotatedSpectrum, rotated_spectrum
 from seisblock.measures.spectra import SMOOTHING_HZ
 from seisblock.records.analytic import ANALYTIC
 from seisblock.records.process import select_component
 from seisblock.records.record import Component, Record
+from seisblock.records.seismic_intensity import jma_intensity, missing_intensity_reason
 from seisblock.references import papers
 
 DEFAULT_THRESHOLD = 0.1 * STANDARD_GRAVITY
@@ -73,6 +75,8 @@ class ComponentMeasures(DisplayMixin, ComponentPeaks):
     ----------
     duration : Duration
         Duration above the threshold.
+    cav_m_s : float, m/s
+        Cumulative absolute velocity, the integral of the absolute acceleration.
     arias_m_s, significant_duration_s : float, m/s and s
         Arias intensity, and the time between 5 and 95 % of it.
     jma_intensity : float or None, 1
@@ -82,6 +86,7 @@ class ComponentMeasures(DisplayMixin, ComponentPeaks):
     """
 
     duration: Duration
+    cav_m_s: float
     arias_m_s: float
     significant_duration_s: float
     jma_intensity: float | None
@@ -153,6 +158,8 @@ class RecordMeasures(DisplayMixin):
         Longest horizontal vector and its azimuth.
     conventions : Conventions
         Filters, windows, baseline.
+    spectra : RotatedSpectrum or None
+        RotD50 and RotD100; None without two horizontals.
     warnings : tuple of str
         Limits of validity of the values.
     citations : tuple of str
@@ -165,6 +172,7 @@ class RecordMeasures(DisplayMixin):
     long_period: LongPeriodMotion | None
     horizontal: HorizontalPeak | None
     conventions: Conventions
+    spectra: RotatedSpectrum | None = None
     warnings: tuple[str, ...] = ()
     citations: tuple[str, ...] = papers("measures")
 
@@ -219,6 +227,7 @@ def measure(
         long_period=long_period_motion(record),
         horizontal=peak_horizontal(record),
         conventions=rules,
+        spectra=rotated_spectrum(record) if len(record.horizontals) == 2 else None,
         warnings=(
             *_intensity_warnings(record, intensity),
             *_baseline_warnings(record, rules),
@@ -235,6 +244,7 @@ def _measure_component(
     return ComponentMeasures(
         **vars(peaks),
         duration=duration_above(a, dt, threshold, side=rules.threshold_side),
+        cav_m_s=cumulative_absolute_velocity(a, dt),
         arias_m_s=arias_intensity(a, dt, gravity=rules.gravity_m_s2),
         significant_duration_s=significant_duration(a, dt),
         jma_intensity=intensity,

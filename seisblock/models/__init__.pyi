@@ -1,5 +1,4 @@
-from .jump.batch import jump_many
-from .jump.batch_results import JumpBatchResult
+from .jump.batch import JumpBatchResult, jump_many
 from .jump.options import JumpOptions
 from .jump.solve import JumpOutcome, solve_jump
 from .respond.batch import RespondBatchResult, respond_many
@@ -7,6 +6,9 @@ from .respond.options import RespondOptions
 from .respond.outcome import RespondOutcome
 from .respond.params import RespondParams
 from .respond.solve import respond_params, solve_respond
+from .rigid3d.options import Rigid3dOptions
+from .rigid3d.outcome import Rigid3dOutcome
+from .rigid3d.solve import solve_rigid3d
 from .rock.options import RockOptions
 from .rock.outcome import RockOutcome
 from .rock.solve import solve_rock
@@ -38,12 +40,15 @@ __all__ = [
     "RespondOutcome",
     "RespondParams",
     "rock_verdict",
+    "Rigid3dOptions",
+    "Rigid3dOutcome",
     "RockOptions",
     "RockOutcome",
     "SlideOptions",
     "SlideOutcome",
     "solve_jump",
     "solve_respond",
+    "solve_rigid3d",
     "solve_rock",
     "solve_slide",
     "solve_stack",

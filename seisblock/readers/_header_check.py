@@ -28,24 +28,29 @@ def half_last_digit(text: str) -> float:
     return 0.5 * 10.0 ** -len(text.strip().partition(".")[2])
 
 
-def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str, slack: float) -> tuple[QCFlag, ...]:
+def flag_peak_mismatch(
+    code: str, peak_text: str, values: FloatArray, unit: str, slack: float, *, signed: bool = True, about_mean: bool = False
+) -> tuple[QCFlag, ...]:
     """Return a flag if the largest sample differs from the header peak.
 
-    `peak_text` is the peak as printed, with sign; `values`, (n,), and `slack`, the tolerance from the printed digits of both, are in
-    `unit`.
+    `peak_text` is the peak as printed; `values`, (n,), and `slack`, the tolerance from the printed digits of both, are in `unit`. Without
+    `signed` the sign of the peak is not checked; with `about_mean` the peak may be that about the mean of the samples.
     """
     peak = parse_number(peak_text)
     if peak is None:
         message = "{component}: header peak {text!r} is not a number; peak of the samples not checked"
         return (qc_flag(message, "header", code, text=peak_text[:20]),)
     extremes = np.array([values.max(), values.min()])
-    # both extremes when their sizes agree within the rounding: the header may state either
-    largest = extremes[np.abs(extremes) >= np.abs(extremes).max() - slack]
-    # 1e-6: rounding of the tolerance itself
-    if (np.abs(largest - peak) <= slack * (1.0 + 1e-6)).any():
-        return ()
-    message = "{component}: header peak {told:g} {unit} differs from the peak of the samples, {peak:g} {unit}"
-    return (qc_flag(message, "header", code, told=peak, unit=unit, peak=float(largest[0])),)
+    for mean in (0.0, float(values.mean())) if about_mean else (0.0,):
+        # both extremes when their sizes agree within the rounding: the header may state either
+        largest = extremes[np.abs(extremes - mean) >= np.abs(extremes - mean).max() - slack] - mean
+        differences = np.abs(largest - peak) if signed else np.abs(np.abs(largest) - abs(peak))
+        # 1e-6: rounding of the tolerance itself
+        if (differences <= slack * (1.0 + 1e-6)).any():
+            return ()
+    peak_of_samples = extremes[np.abs(extremes).argmax()]
+    message = "{component}: header peak {stated:g} {unit} differs from the peak of the samples, {peak:g} {unit}"
+    return (qc_flag(message, "header", code, stated=peak, unit=unit, peak=float(peak_of_samples)),)
 
 
 def flag_count(promised: int, count: int) -> tuple[QCFlag, ...]:

@@ -40,7 +40,14 @@ _TAR_MAGIC = slice(257, 262)
 
 def is_archive(data: bytes) -> bool:
     """Return whether bytes begin a zip or tar archive or a gzip, bzip2 or xz file."""
+    if is_workbook(data):
+        return False
     return data.startswith((b"PK\x03\x04", b"PK\x05\x06")) or data[_TAR_MAGIC] == b"ustar" or _find_decompressor(data[:16]) is not None
+
+
+def is_workbook(head: bytes) -> bool:
+    """Return whether bytes begin an Excel workbook: a zip whose first member is one of a workbook."""
+    return head.startswith(b"PK\x03\x04") and head[30:].startswith((b"[Content_Types].xml", b"_rels/", b"docProps/", b"xl/"))
 
 
 def _find_decompressor(head: bytes) -> Callable[[IO[bytes]], Any] | None:

@@ -21,6 +21,16 @@ MAX_CHANNELS = 3
 
 # HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC, AKBMR--n.1000hyfh.BNZ.--.acc.V2c
 _SEED_NAME = re.compile(r"(?P<before>.+\.[FGDCESHBML][NGHL])(?P<code>[ENZ123])(?P<after>\..+)\Z", re.IGNORECASE)
+# NET.STA.LOC.CHA at the start, or a channel code before the suffix of a waveform file
+_WAVEFORM_NAMES = (
+    re.compile(
+        r"(?P<before>[A-Z0-9]{1,2}\.[A-Z0-9]{1,5}\.[A-Z0-9-]{0,2}\.[FGDCESHBMLVUR][A-Z])(?P<code>[ENZ123])(?P<after>(?:[._-].*)?)\Z", re.I
+    ),
+    re.compile(
+        r"(?P<before>(?:.*[._-])?[FGDCESHBMLVUR][NGHL])(?P<code>[ENZ123])(?P<after>(?:[._-].*)?\.(?:sac|mseed|miniseed|msd|ms|seed))\Z",
+        re.I,
+    ),
+)
 _LABEL = re.compile(r"^(?:location)?[\s:,;-]*", re.IGNORECASE)
 
 
@@ -91,3 +101,17 @@ def seed_file_set(basename: str) -> FileSet | None:
     """
     match = _SEED_NAME.match(basename)
     return match and FileSet(f"{match['before']}?{match['after']}".lower(), 3, match["code"])
+
+
+def waveform_file_set(basename: str) -> FileSet | None:
+    """Return the file set of a miniSEED or SAC file with a SEED channel code in its name, None for other names.
+
+    Examples
+    --------
+    >>> waveform_file_set("BK.CMB.00.HNE__20140824T102014Z.mseed").key, waveform_file_set("kobe_HN1.sac").component
+    ('bk.cmb.00.hn?__20140824t102014z.mseed', '1')
+    >>> waveform_file_set("record.mseed") is None
+    True
+    """
+    match = next((match for pattern in _WAVEFORM_NAMES if (match := pattern.match(basename))), None)
+    return match and FileSet(f"{match['before']}?{match['after']}".lower(), 3, match["code"].upper())

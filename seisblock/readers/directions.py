@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from seisblock.records.azimuth import bearing_to_azimuth
 
@@ -77,6 +77,49 @@ def strip_component_words(text: str) -> str:
     while stripped_text and stripped_text != previous_text:
         previous_text, stripped_text = stripped_text.strip(), _FILLER_WORDS.sub("", stripped_text.strip())
     return previous_text
+
+
+_SIGNED = re.compile(
+    r"^(?P<before>[-+−＋])?\s*(?P<name>[^()\[\]（）]*?)\s*(?:[(\[（]\s*(?P<inner>[^()\[\]（）]*?)\s*[)\]）])?\s*(?P<after>[-+−＋])?$"
+)
+_POSITIVE_WORDS = re.compile(r"\b(?:positive|pos|plus|is)\b|[+＋]|[がを]?正|向き|向", re.IGNORECASE)
+_AXES_BY_AZIMUTH = {0.0: ("NS", 1.0), 180.0: ("NS", -1.0), 90.0: ("EW", 1.0), 270.0: ("EW", -1.0)}
+
+
+def parse_signed_direction(text: str) -> Direction | None:
+    """Return the direction of a name with a sign or with the positive sense in brackets, None for other names.
+
+    Examples
+    --------
+    >>> [(d.code, d.sign) for d in map(parse_signed_direction, ("UD(down)", "Z-", "-UD", "NS(S+)", "EW (+E)", "UD(上が正)"))]
+    [('UD', -1.0), ('UD', -1.0), ('UD', -1.0), ('NS', -1.0), ('EW', 1.0), ('UD', 1.0)]
+    >>> parse_signed_direction("UD"), parse_signed_direction("UD (filtered)"), parse_signed_direction("N-S")
+    (None, None, None)
+    """
+    match = _SIGNED.match(text.strip())
+    if match is None:
+        return None
+    base = parse_direction(match["name"])
+    mark = match["before"] or match["after"]
+    if base is None or not (mark or match["inner"]):
+        return None
+    sign = -1.0 if mark in ("-", "−") else 1.0
+    if match["inner"]:
+        word = _POSITIVE_WORDS.sub("", match["inner"]).strip(" :=")
+        sense = parse_direction({"下": "down", "上": "up", "北": "n", "南": "s", "東": "e", "西": "w"}.get(word, word))
+        if sense is None:
+            return None
+        if base.code == "UD":
+            # the name may be Z, the sense down
+            if sense.code != "UD":
+                return None
+            sign *= sense.sign
+        else:
+            base_axis, sense_axis = (_AXES_BY_AZIMUTH.get(d.azimuth_deg if d.azimuth_deg is not None else -1.0) for d in (base, sense))
+            if base_axis is None or sense_axis is None or base_axis[0] != sense_axis[0]:
+                return None
+            sign *= base_axis[1] * sense_axis[1]
+    return replace(base, sign=base.sign * sign)
 
 
 def parse_direction(text: str) -> Direction | None:

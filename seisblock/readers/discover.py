@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import glob
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,10 +18,12 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.core.io.files import read_bytes as read_list
 from seisblock.core.io.overwrite import mark_read
 from seisblock.readers.archive import is_archive, iter_members
+from seisblock.readers.event import is_quakeml
 from seisblock.readers.limits import ReadBudget
 from seisblock.readers.member_buffer import MemberBuffer
 from seisblock.readers.options import ReadOptions
 from seisblock.readers.registry import FALLBACK, HEAD_BYTES, Format, detect_format, format_titles, list_formats, match_head
+from seisblock.readers.response import is_station_xml
 from seisblock.readers.source import RawFile, open_source, read_bytes, resolve_path
 
 LIST_PREFIX = "@"
@@ -29,6 +31,9 @@ LIST_PREFIX = "@"
 
 _IGNORED_SUFFIXES = frozenset({".md", ".pdf", ".png", ".jpg", ".jpeg", ".gif", ".ps", ".html", ".toml", ".py", ".parquet", ".journal"})
 """Suffixes of files in a folder that are skipped without reading."""
+
+INVENTORY_SUFFIXES, EVENT_SUFFIXES = (".xml", ".stationxml"), (".xml", ".quakeml", ".qml")
+"""Suffixes of StationXML and of QuakeML files."""
 
 _COMPONENT_ORDER = {"NS": 0.0, "EW": 1.0, "UD": 2.0}
 
@@ -38,7 +43,8 @@ class RecordSource:
     """One recording to be read.
 
     `name` and `path` are those of its first file (archive/member in an archive); `stamp`, the sizes and modification times of its files,
-    identifies the content under this path. The bytes are in `files` or, of an archive, in `blobs`; `failure` prevents reading.
+    identifies the content under this path. The bytes are in `files` or, of an archive, in `blobs`; `inventories` are the StationXML files
+    of the archive; `failure` prevents reading.
     """
 
     name: str
@@ -46,6 +52,7 @@ class RecordSource:
     stamp: str
     files: tuple[str, ...] = ()
     blobs: tuple[RawFile, ...] = ()
+    inventories: tuple[RawFile, ...] = ()
     failure: InputError | None = None
 
     @property
@@ -94,10 +101,10 @@ def _expand_name(name: str, options: ReadOptions, open_lists: tuple[str, ...] = 
         return
     path = Path(name).expanduser() if name.startswith("~") else Path(name)
     try:
-        is_folder, exists = path.is_dir(), path.exists()
+        exists = path.exists()
     except OSError:
-        is_folder = exists = False
-    if is_folder:
+        exists = False
+    if is_folder(name):
         yield from _expand_folder(path, options)
     elif not exists and any(mark in name for mark in "*?["):
         matches = sorted(match for match in glob.glob(str(path), recursive=True) if Path(match).is_file())  # noqa: PTH207 - Path.glob takes no absolute pattern
@@ -111,6 +118,14 @@ def _expand_name(name: str, options: ReadOptions, open_lists: tuple[str, ...] = 
         with suppress(RecordNotFoundError):
             name = str(resolve_path(name))
         yield name
+
+
+def is_folder(name: object) -> bool:
+    """Return whether a name is that of a folder."""
+    try:
+        return Path(str(name)).expanduser().is_dir()
+    except (OSError, RuntimeError, ValueError):  # name too long, unknown home directory, NUL character
+        return False
 
 
 def _expand_list(path: Path, options: ReadOptions, open_lists: tuple[str, ...]) -> Iterator[str]:
@@ -152,7 +167,14 @@ def _may_be_record(path: Path) -> bool:
             head = stream.read(65536)
     except OSError:
         return True  # reading reports the error later
-    return bool(head.strip()) and (is_archive(head) or _has_own_format(RawFile(str(path), head)))
+    blob = RawFile(str(path), head)
+    return bool(head.strip()) and (is_archive(head) or (_has_own_format(blob) and not _is_derived(blob)))
+
+
+def _is_derived(blob: RawFile) -> bool:
+    """Return whether a file has only data derived from a record."""
+    head = blob.content[:HEAD_BYTES]
+    return any(f.is_derived is not None and f.is_derived(head) for f in list_formats())
 
 
 def _has_own_format(blob: RawFile) -> bool:
@@ -207,16 +229,20 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
     stamp = _file_stamp(path)
     member_count = 0
     archive_budget = ReadBudget()
+    inventories: tuple[RawFile, ...] | None = None
     with MemberBuffer() as buffer:
         try:
             for member in iter_members(open_source(path, archive_budget), archive_budget):
-                if not _may_be_member(member, options):
+                if not _may_be_member(member, options) or _is_derived(member):
                     continue
                 key, size = _file_set(member.name)
                 member_count += 1
+                if inventories is None and options.inventory is None and _has_response(member):
+                    # a first pass for StationXML files, which may stand behind the records
+                    inventories = _archive_inventories(path)
                 # a complete set is yielded at once, which keeps the buffer small
                 if buffer.add(key, member) == size:
-                    yield _archive_source(buffer.pop(key), stamp)
+                    yield _archive_source(buffer.pop(key), stamp, inventories)
         except InputError as error:
             yield RecordSource(path.name, str(path), stamp, failure=error)
         else:
@@ -224,32 +250,79 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
                 failure = RecordFormatError("{name}: no record found in this archive", name=path)
                 yield RecordSource(path.name, str(path), stamp, failure=failure)
         for incomplete_key in buffer.keys:
-            yield _archive_source(buffer.pop(incomplete_key), stamp)
+            yield _archive_source(buffer.pop(incomplete_key), stamp, inventories)
 
 
-def _archive_source(members: list[RawFile], stamp: str) -> RecordSource:
-    return RecordSource(members[0].basename, members[0].name, stamp, blobs=tuple(members))
+def _archive_source(members: list[RawFile], stamp: str, inventories: tuple[RawFile, ...] | None) -> RecordSource:
+    return RecordSource(members[0].basename, members[0].name, stamp, blobs=tuple(members), inventories=inventories or ())
+
+
+def _has_response(blob: RawFile) -> bool:
+    """Return whether the format of a file takes a StationXML."""
+    file_format = match_head(blob.content[:HEAD_BYTES])
+    return file_format is not None and "inventory" in file_format.options
+
+
+def _archive_inventories(path: Path) -> tuple[RawFile, ...]:
+    """Return the StationXML files in an archive."""
+    budget = ReadBudget()
+    return tuple(member for member in iter_members(open_source(path, budget), budget) if is_station_xml(member.content[:HEAD_BYTES]))
+
+
+def find_inventories(blob: RawFile, budget: ReadBudget) -> tuple[RawFile, ...]:
+    """Return the StationXML files in the folder of a file; those named after it, if any, else all."""
+    if blob.path is None:
+        return ()
+    paths = [path for path in _directory_files(blob.path) if path.suffix.lower() in INVENTORY_SUFFIXES]
+    # BK.CMB.xml beside BK.CMB.00.HNE.mseed: a folder of a network has many StationXML files
+    name_matches = [path for path in paths if blob.path.name.upper().startswith(f"{path.stem}.".upper())]
+    return _load_matching(name_matches or paths, is_station_xml, budget)
+
+
+def find_events(blob: RawFile, budget: ReadBudget) -> tuple[RawFile, ...]:
+    """Return the QuakeML files in the folder of a file."""
+    if blob.path is None:
+        return ()
+    return _load_matching([path for path in _directory_files(blob.path) if path.suffix.lower() in EVENT_SUFFIXES], is_quakeml, budget)
+
+
+def _load_matching(paths: Iterable[Path], matches: Callable[[bytes], bool], budget: ReadBudget) -> tuple[RawFile, ...]:
+    """Return those of the files whose first bytes match; unreadable ones are omitted."""
+    files = []
+    for path in paths:
+        try:
+            with path.open("rb") as stream:
+                head = stream.read(HEAD_BYTES)
+            if matches(head):
+                files.append(RawFile(str(path), read_bytes(path, str(path), budget), path))
+        except OSError:
+            continue
+    return tuple(files)
 
 
 def _may_be_member(blob: RawFile, options: ReadOptions) -> bool:
     """Return whether a member of an archive may be a record; notes are skipped unless the options declare them to be records."""
-    return options.format is not None or options.units is not None or _has_own_format(blob)
+    if options.format is not None:
+        return True
+    return not is_station_xml(blob.content[:HEAD_BYTES]) and (options.units is not None or _has_own_format(blob))
 
 
-def unpack(blob: RawFile, options: ReadOptions) -> list[RawFile]:
-    """Return the records in an archive, nested archives included, or a file that is not an archive.
+def unpack(blob: RawFile, options: ReadOptions) -> tuple[list[RawFile], tuple[RawFile, ...]]:
+    """Return the records in an archive, nested archives included, or a file that is not an archive; and the archive's StationXML files.
 
     Raise RecordFormatError if the archive is damaged or no member is a record, RecordError if it exceeds a limit.
     """
     if not is_archive(blob.content[:512]):
-        return [blob]
+        return [blob], ()
     members = list(iter_members(blob, options.budget))
     records = [member for member in members if _may_be_member(member, options)]
+    # spectra stand beside the records in downloads of CESMD
+    records = [member for member in records if not _is_derived(member)] or records
     if not records:
         message = "{name}: no record found in this archive (contents: {held}); expected {formats}, or a plain table"
         contents = [member.basename for member in members[:8]] or lazy_gettext("plots only")
         raise RecordFormatError(message, name=blob.name, held=contents, formats=format_titles())
-    return records
+    return records, tuple(member for member in members if is_station_xml(member.content[:HEAD_BYTES]))
 
 
 def load_component_files(blob: RawFile, budget: ReadBudget, level: str | None = None) -> list[RawFile]:

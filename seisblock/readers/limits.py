@@ -1,4 +1,4 @@
-"""Budget of one reading: bytes, archive members, nesting and samples."""
+"""Limits of one read against decompression bombs: bytes, archive members, nesting and samples."""
 
 from __future__ import annotations
 
@@ -91,3 +91,7 @@ class LimitedReader:
         piece = self.stream.read(size)
         self.budget.count_bytes(self.name, len(piece))
         return piece
+
+
+MAX_RESAMPLED = 20_000_000
+"""Samples of a component after resampling of uneven times."""

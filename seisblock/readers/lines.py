@@ -100,8 +100,8 @@ def read_trimmed_lines(blob: RawFile) -> list[str]:
 
 def line_error(message: str, name: str, line: int, /, **values: object) -> RecordFormatError:
     """Return the error of a line, counted from 1, of the file `name`; the template says what was expected, and what was found."""
-    what = lazy_gettext(message, **values)
-    return RecordFormatError("{name}, line {line}: {what}; correct the line, or cut the file before it", name=name, line=line, what=what)
+    text = lazy_gettext(message, **values)
+    return RecordFormatError("{name}, line {line}: {what}; correct the line, or cut the file before it", name=name, line=line, what=text)
 
 
 def map_lines(lines: Sequence[str], transform: Callable[[str], str]) -> Sequence[str]:

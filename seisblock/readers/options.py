@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from seisblock.readers.limits import ReadBudget
@@ -17,9 +17,14 @@ class ReadOptions:
     dt: float | None = None
     station: str | None = None
     level: str | None = None
+    location: str | None = None
+    inventory: Any = None
+    event: Any = None
+    differentiate: bool = False
+    response: str = "sensitivity"
     budget: ReadBudget = field(default_factory=ReadBudget)
 
     @property
     def keywords(self) -> dict[str, Any]:
         """Options as keyword arguments of :func:`~seisblock.readers.read`."""
-        return {key: getattr(self, key) for key in ("format", "units", "dt", "station", "level")}
+        return {f.name: getattr(self, f.name) for f in fields(self) if f.name != "budget"}

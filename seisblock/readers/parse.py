@@ -2,24 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+from typing import cast
+
 from seisblock.core.errors import ParameterError, UnitError
 from seisblock.readers.options import ReadOptions
 from seisblock.readers.registry import detect_format, find_format
+from seisblock.readers.response import Inventories
 from seisblock.readers.source import RawFile
 from seisblock.readers.table.headers import normalize_unit
 from seisblock.records import Record
 
 
-def parse_file(blob: RawFile, options: ReadOptions) -> list[Record]:
+def parse_file(blob: RawFile, options: ReadOptions, find_inventories: Callable[[], tuple[RawFile, ...]] = tuple) -> list[Record]:
     """Return the records, or single components, in a file of the detected format or of the format in the options.
+
+    `find_inventories` returns the StationXML files beside the file; called for formats with a response only.
 
     Raise an InputError if the file is malformed, exceeds the limit of samples, or contradicts the options.
     """
     file_format = detect_format(blob) if options.format is None else find_format(options.format)
+    if "inventory" in file_format.options and options.inventory is None:
+        options = replace(options, inventory=Inventories(find_inventories()))
     result = file_format.parse(blob, **{key: getattr(options, key) for key in file_format.options})
     parts = result if isinstance(result, list) else [result]
     for part in parts:
         _check_options(part, options)
+    # without a unit in the header, it is the one of the options
+    proves = tuple(word for word in file_format.proves if word != "unit" or "units" not in file_format.options or options.units is None)
+    parts = [
+        replace(p, metadata={**p.metadata, "proved": (*proves, *cast("tuple[str, ...]", p.metadata.get("proved", ())))}) for p in parts
+    ]
     options.budget.count_samples(blob.name, sum(part.samples * len(part.components) for part in parts))
     return parts
 

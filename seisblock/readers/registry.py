@@ -70,6 +70,12 @@ class Format:
         Whether obspy reads the format by a plug-in of this package; its name there is `obspy_name`.
     synchronous : bool
         Whether components have a common start but may differ in length.
+    aligned : bool
+        Whether components have absolute start times and are cut to their common window.
+    proves : tuple of str
+        What a file states or proves by a second statement, in the words of :func:`~seisblock.records.qc_report.record_checks`.
+    is_derived : callable or None
+        ``is_derived(head)``: whether a file has only data derived from a record, as spectra; skipped in archives and folders.
     file_set : callable or None
         ``file_set(basename)``: the :class:`FileSet` of a component file by its name, None for other names.
     recording_key : callable or None
@@ -86,6 +92,9 @@ class Format:
     options: tuple[str, ...] = ()
     plugin: bool = True
     synchronous: bool = False
+    aligned: bool = False
+    proves: tuple[str, ...] = ()
+    is_derived: Callable[[bytes], bool] | None = None
     file_set: Callable[[str], FileSet | None] | None = None
     recording_key: Callable[[bytes], object] | None = None
 
@@ -129,7 +138,7 @@ def find_format(name: str) -> Format:
     Examples
     --------
     >>> [find_format(name).name for name in ("k-net", "JMA", "OBSPY:MSEED")]
-    ['KNET', 'JMA-CSV', 'OBSPY']
+    ['KNET', 'JMA-CSV', 'MSEED']
     """
     key = name.upper()
     return next((f for f in list_formats() if key == f.name or key in f.aliases), None) or _FORMATS[FALLBACK]

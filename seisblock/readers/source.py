@@ -186,6 +186,10 @@ def resolve_path(source: Location) -> Path:
         ) from error
     sample = find_sample(name) if path.name == name else None
     if sample is None:
+        if re.match(r"[a-z]+:[^/\\]+@", name, re.IGNORECASE):
+            raise RecordNotFoundError(
+                "{text!r} is not an analytic motion; write, for example, sine:300gal@1.5Hz,10s or pulse:300gal@1.5Hz", text=name
+            )
         sample_names = [s.name for s in list_samples() if s.kind == "record"]
         raise RecordNotFoundError("{name}: no such file or bundled sample (samples: {known})", name=name, known=sample_names)
     return sample

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -264,7 +265,7 @@ def analytic_record(name: str) -> Record:
         return rectangle_motion(
             _quantity(name, amplitude_text, ACCELERATION_UNITS, "gal"), _quantity(name, values[0], {"s": 1.0}, "s"), dt=dt, name=name
         )
-    frequency = _quantity(name, values[0], {"hz": 1.0, "Hz": 1.0}, "Hz")
+    frequency = _quantity(name, re.sub("hz$", "Hz", values[0], flags=re.IGNORECASE), {"Hz": 1.0}, "Hz")
     omega = 2.0 * math.pi * frequency
     units = {
         **ACCELERATION_UNITS,
@@ -288,6 +289,9 @@ def _interval(name: str, text: str) -> float:
 
 def _quantity(name: str, text: str, units: dict[str, float], example: str, *, required: bool = True) -> float:
     """Return a number with its unit in SI."""
+    if not re.match(r"\s*[-+]?[\d.]", text):
+        shape = name.partition(":")[0].strip().lower()
+        raise ParameterError("incomplete analytic motion {name!r}: write, for example, {example}", name=name, example=FORMS[shape])
     value, has_unit = parse_quantity(text, units, quantity=name)
     if required and not has_unit:
         raise ParameterError("{name}: {text!r} has no unit: write, for example, {text}{unit}", name=name, text=text.strip(), unit=example)

@@ -245,6 +245,14 @@ def motion_of(record: Record, component: str) -> Motion:
     return motion
 
 
+def requested_azimuth(motion: Motion) -> float | None:
+    """Return the azimuth of a motion of a record that was requested by its degrees, None for a recorded component."""
+    record = motion.record
+    if record is None or any(component.code == motion.name for component in record.components):
+        return None
+    return _parse_azimuth(motion.name)
+
+
 def _warn_units(motion: Motion, depth: int) -> None:
     """Warn if peak or sampling interval suggest another unit."""
     is_flagged = motion.record is not None and any(flag.kind == "size" for flag in motion.record.doubts)

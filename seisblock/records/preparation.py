@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
+from seisblock.core.errors import ParameterError
+from seisblock.core.jma_scale import parse_jma_intensity
 from seisblock.core.typing import TimeWindow
 from seisblock.records import process
 from seisblock.records.floor import Storey, floor_motion
@@ -26,18 +28,20 @@ class Preparation(DisplayMixin):
         Factor on all components.
     target_pga : float or None, m/s^2
         Target peak of the largest of `components` after these steps; all components are scaled by the same factor.
+    target_jma : float or None, 1
+        Target JMA intensity of the whole record after these steps, instead of `target_pga`.
     components : tuple of str
         Codes or azimuths that define the peak; all horizontals when empty.
     window : (float or None, float or None) or None, s
         Start and end, counted from the record's first sample as read; None keeps the end of the record.
     floor : Storey or None
-        Replace the ground motion by :func:`~seisblock.records.floor.floor_motion`. Scale and target PGA refer to the ground; the
+        Replace the ground motion by :func:`~seisblock.records.floor.floor_motion`. Scale and targets refer to the ground; the
         window is extracted from the floor motion and includes the response to earlier shaking.
 
     Raises
     ------
     ParameterError
-        If a number lies outside its range.
+        If a number lies outside its range, or two targets are given.
 
     Examples
     --------
@@ -55,6 +59,7 @@ class Preparation(DisplayMixin):
     components: tuple[str, ...] = ()
     window: TimeWindow | None = None
     floor: Storey | None = None
+    target_jma: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "components", (self.components,) if isinstance(self.components, str) else tuple(self.components))
@@ -63,6 +68,10 @@ class Preparation(DisplayMixin):
             checks.positive("the high-pass corner", self.highpass_hz, "Hz")
         if self.target_pga is not None:
             checks.positive("the target PGA", self.target_pga, "m/s^2")
+        if self.target_jma is not None:
+            object.__setattr__(self, "target_jma", parse_jma_intensity(self.target_jma))
+            if self.target_pga is not None:
+                raise ParameterError("a record cannot be scaled to a PGA and to a JMA intensity: give only one of them")
         if self.floor is not None:
             checks.instance(self.floor, Storey)
 
@@ -93,6 +102,8 @@ class Preparation(DisplayMixin):
         if self.target_pga is not None:
             # after the filters, which change the peak
             record = process.scale_to_pga(record, self.target_pga, self.components or None)
+        if self.target_jma is not None:
+            record = process.scale_to_jma(record, self.target_jma)
         if self.floor is not None:
             # scale and target PGA are those of the ground
             record = floor_motion(record, self.floor)

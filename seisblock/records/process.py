@@ -10,6 +10,7 @@ import numpy as np
 from seisblock.core import checks
 from seisblock.core.errors import ComponentError, ParameterError, RecordError
 from seisblock.core.i18n import Message, lazy_gettext
+from seisblock.core.jma_scale import parse_jma_intensity
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import GAL
 from seisblock.records.crop_history import CROP_HISTORY
@@ -17,6 +18,7 @@ from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.qc_flags import drop_resolved
 from seisblock.records.record import Component, Record, readonly
 from seisblock.records.rotation import acceleration_at_azimuth, oriented_pair
+from seisblock.records.seismic_intensity import jma_intensity, missing_intensity_reason
 
 
 def demean(record: Record) -> Record:
@@ -173,6 +175,45 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
         entry = lazy_gettext("scaled by {factor:.10g}: PGA of {code} {peak:.5g} -> {target:.5g} gal", **values)
     else:
         entry = lazy_gettext("scaled by {factor:.10g}: PGA of {code} ({among}) {peak:.5g} -> {target:.5g} gal", **values, among=candidates)
+    return _apply(record, lambda c: readonly(c.acceleration * factor), entry)
+
+
+def scale_to_jma(record: Record, target: float) -> Record:
+    """Scale all components by the factor that gives the whole record the target JMA intensity.
+
+    The filter of the intensity is linear, so that a factor s adds 2 log10 s to the intensity ([JMA1996]_): the factor is exact.
+
+    Parameters
+    ----------
+    record : Record
+        Record with two horizontals and the vertical.
+    target : float, 1
+        Instrumental intensity, see :func:`~seisblock.core.jma_scale.parse_jma_intensity`.
+
+    Raises
+    ------
+    ParameterError
+        If the target is not between 0 and 8, or the record has no intensity: a component is missing, or the motion is too weak.
+
+    Examples
+    --------
+    >>> from seisblock.records import scale_to_jma
+    >>> from seisblock.readers import read
+    >>> from seisblock.measures import jma_intensity
+    >>> round(jma_intensity(scale_to_jma(read("synthetic_jma.csv"), 5.75)), 9)
+    5.75
+    """
+    checks.instance(record, Record)
+    target = parse_jma_intensity(target)
+    intensity = jma_intensity(record)
+    if intensity is None:
+        raise ParameterError(
+            "{source}: no JMA intensity to scale to: {reason}",
+            source=record.source or lazy_gettext("record"),
+            reason=missing_intensity_reason(record),
+        )
+    factor = 10.0 ** ((target - intensity) / 2.0)
+    entry = lazy_gettext("scaled by {factor:.10g}: JMA intensity {own:.3g} -> {target:.3g}", factor=factor, own=intensity, target=target)
     return _apply(record, lambda c: readonly(c.acceleration * factor), entry)
 
 

@@ -8,12 +8,13 @@ from itertools import combinations
 
 import numpy as np
 
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.core.units import GAL
 from seisblock.records.qc_flags import QCFlag
 from seisblock.records.qc_metadata import check_metadata
-from seisblock.records.qc_spikes import find_spikes_and_jumps
+from seisblock.records.qc_repetition import find_repetitions
+from seisblock.records.qc_spikes import find_flipped_samples, find_spikes_and_jumps
 from seisblock.records.record import Component, Record
 
 IMPLAUSIBLE_PGA = 50.0
@@ -31,6 +32,24 @@ MIN_HOLD_S = 0.1
 EDGE_RATIO = 0.03
 """Step at the edge of a flat run, as a ratio of the peak, beyond which the run is not due to instrument resolution."""
 
+EDGE_UNITS = 4.5
+"""Step at the edge of a flat run, as a multiple of the resolution, beyond which the run is not due to a coarse resolution."""
+
+FREQUENT_SHARE = 0.1
+"""Share of the nonzero steps between samples at which a step is one of the resolution."""
+
+USUAL_RUNS = 10
+"""Number of flat runs of at least half the length, the run included, beyond which it is due to a coarse resolution."""
+
+LONG_HOLD_SAMPLES = 25
+"""Intervals of a flat run beyond which it is not due to a coarse resolution, if the unit of that is below EDGE_RATIO times the peak."""
+
+MIN_INTERVAL_S, MAX_INTERVAL_S = 5e-4, 0.1
+"""Sampling intervals of strong-motion records, s; others are probably in another unit."""
+
+MIN_ZERO_MINIMA, ZERO_RATIO = 10, 0.02
+"""Number of minima below this ratio of the peak at which samples without a negative value have lost their signs."""
+
 SMOOTHNESS_RATIO = 0.15
 """Ratio of third to first differences below which samples are those of an analytic pulse (a tenth for a sine of 20 samples).
 
@@ -40,6 +59,13 @@ linear, 1 in 13."""
 MAX_SKEW_DEG = 1.0
 """Largest deviation of two horizontals from perpendicular without a flag, degrees."""
 
+_MILLISECONDS = N_("times in milliseconds?")
+_SAMPLE_NUMBERS = N_("sample numbers instead of times?")
+_DAYS = N_("times in days, as of a spreadsheet?")
+_OTHER_INTERVAL = N_("check the unit of time")
+
+_HIDDEN_BY_INTERPOLATION = {"clipped", "held", "spike"}
+_RESOLUTION_SAMPLES = 2**15
 _NEIGHBOURHOOD = 20
 _MIN_PULSE_SAMPLES = 8
 _MAX_LISTED = 5
@@ -53,13 +79,22 @@ def run_qc(record: Record) -> Record:
     record : Record
         Record as read, before processing.
     """
-    flags = [flag for component in record.components for flag in _check_component(component, record.dt)]
-    flags += [*_check_duplicates(record), *_check_directions(record), *check_metadata(record)]
+    is_interpolated = bool(record.metadata.get("interpolated"))
+    flags = [flag for component in record.components for flag in _check_component(component, record.dt, is_interpolated=is_interpolated)]
+    if record.carries_offset:
+        # of the instrument, removed by default and named in the history
+        flags = [flag for flag in flags if flag.kind != "offset"]
+    flags += [*_check_interval(record), *_check_duplicates(record), *_check_directions(record), *check_metadata(record)]
     return replace(record, doubts=tuple(dict.fromkeys((*record.doubts, *flags))))
 
 
-def _check_component(component: Component, dt: float) -> Iterator[QCFlag]:
-    """Yield the flags of one component."""
+def check_recorded(component: Component, dt: float) -> tuple[QCFlag, ...]:
+    """Return flags of flat peaks, gaps and spikes of uneven samples as recorded, at a mean interval `dt`, s: interpolation hides them."""
+    return tuple(flag for flag in _check_component(component, dt, is_interpolated=False) if flag.kind in _HIDDEN_BY_INTERPOLATION)
+
+
+def _check_component(component: Component, dt: float, *, is_interpolated: bool) -> Iterator[QCFlag]:
+    """Yield the flags of one component; interpolated samples are straight between those of the file."""
     a, code = component.acceleration, component.code
     peak = max(float(a.max()), -float(a.min()))
     if peak == 0.0:
@@ -71,8 +106,10 @@ def _check_component(component: Component, dt: float) -> Iterator[QCFlag]:
         text = lazy_gettext("{component}: PGA {pga:.4g} m/s^2 exceeds 5 g; check the unit", component=code, pga=peak)
         yield QCFlag("size", text, code)
     starts, ends = _find_flat_runs(a)
-    if starts.size:
+    if starts.size and not is_interpolated:
         yield from _check_flat_runs(code, a, dt, peak, starts, ends)
+    yield from _check_repetition(code, a, dt)
+    yield from _check_signs(code, a, dt, peak)
     spikes, jumps = find_spikes_and_jumps(a)
     if spikes.size:
         text = lazy_gettext(
@@ -91,6 +128,46 @@ def _check_component(component: Component, dt: float) -> Iterator[QCFlag]:
             times=_format_times(jumps, dt),
         )
         yield QCFlag("jump", text, code)
+
+
+def _check_repetition(code: str, a: FloatArray, dt: float) -> Iterator[QCFlag]:
+    """Yield a flag for pieces that repeat earlier ones exactly."""
+    pieces = find_repetitions(a)
+    if pieces:
+        text = lazy_gettext(
+            "{component}: {count} interval(s) repeat earlier samples exactly (from {times} s, up to {longest:.3g} s, as those "
+            "{lag:.3g} s before): overwritten samples (JMA notice of 2015-12-04) or duplicate data; samples not corrected",
+            component=code,
+            count=len(pieces),
+            times=_format_times(np.array([piece.second for piece in pieces]), dt),
+            longest=max(piece.samples for piece in pieces) * dt,
+            lag=(pieces[0].second - pieces[0].first) * dt,
+        )
+        yield QCFlag("repetition", text, code)
+
+
+def _check_signs(code: str, a: FloatArray, dt: float, peak: float) -> Iterator[QCFlag]:
+    """Yield a flag for minus signs that are lost, in the whole component or in single samples."""
+    if a.size < _MIN_PULSE_SAMPLES:
+        return
+    if a.min() >= 0.0 or a.max() <= 0.0:
+        size = np.abs(a)
+        is_minimum = (size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:]) & (size[1:-1] < ZERO_RATIO * peak)
+        if np.count_nonzero(is_minimum) >= MIN_ZERO_MINIMA:
+            text = lazy_gettext(
+                "{component}: all samples have one sign, though they often come near zero: minus signs lost", component=code
+            )
+            yield QCFlag("sign", text, code)
+        return
+    flips = find_flipped_samples(a)
+    if flips.size:
+        text = lazy_gettext(
+            "{component}: {count} sample(s) fit their neighbours with the opposite sign only (at {times} s): minus signs lost",
+            component=code,
+            count=flips.size,
+            times=_format_times(flips, dt),
+        )
+        yield QCFlag("sign", text, code)
 
 
 def _offset_message(code: str, mean: float, peak: float) -> str:
@@ -119,7 +196,8 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
     step_out = np.where(ends < a.size - 1, np.abs(a[ends] - a[np.minimum(ends + 1, a.size - 1)]), 0.0)
     # clipped: at an extreme of the record, entered and left by steep steps
     at_peak = np.isin(a[starts], (a.max(), a.min())) & (np.abs(a[starts]) > 0.5 * peak)
-    is_clipped = at_peak & (np.minimum(step_in, step_out) > EDGE_RATIO * peak)
+    unit = _resolution(a)
+    is_clipped = at_peak & (np.minimum(step_in, step_out) > max(EDGE_RATIO * peak, EDGE_UNITS * unit))
     if is_clipped.any():
         text = lazy_gettext(
             "{component}: {count} flat peak(s) of up to {longest} equal samples (at {times} s): instrument or file clipped",
@@ -129,11 +207,19 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
             times=_format_times(starts[is_clipped], dt),
         )
         yield QCFlag("clipped", text, code)
+    edges = np.maximum(step_in, step_out)
+    # coarse samples stay constant for a while by themselves: steps of few units of the resolution are no edge, unless the run is long
+    is_long_hold = (ends - starts >= LONG_HOLD_SAMPLES) & (unit < EDGE_RATIO * peak)
+    is_edge = (edges > EDGE_RATIO * peak) & ((edges > EDGE_UNITS * unit) | is_long_hold)
+    # runs of half the length are usual in such samples, too
+    lengths = np.sort(ends - starts)
+    at_least_half = lengths.size - np.searchsorted(lengths, 0.5 * (ends - starts))
+    is_edge &= (at_least_half <= USUAL_RUNS) | is_long_hold
     # 7.5 intervals: eight equal samples, with a margin for rounding
     is_long = (ends - starts) * dt >= max(MIN_HOLD_S, 7.5 * dt)
     holds = [
         i
-        for i in np.flatnonzero(is_long & ~is_clipped & (np.maximum(step_in, step_out) > EDGE_RATIO * peak))
+        for i in np.flatnonzero(is_long & ~is_clipped & is_edge)
         if _is_shaking(a[max(starts[i] - _NEIGHBOURHOOD, 0) : starts[i]], peak)
         and (
             not _ends_at_rest(a[max(starts[i] - _NEIGHBOURHOOD, 0) : starts[i]], a[starts[i]])
@@ -153,6 +239,24 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
         yield QCFlag("held", text, code)
 
 
+def _resolution(a: FloatArray) -> float:
+    """Return the smallest difference of two values among the samples around the peak."""
+    middle = int(a.argmax())
+    around = a[max(middle - _RESOLUTION_SAMPLES, 0) : middle + _RESOLUTION_SAMPLES]
+    smallest = float(np.diff(np.unique(around)).min(initial=np.inf))
+    # digits may be printed below the resolution of the instrument: its steps are the most frequent ones
+    multiples = np.diff(around)
+    # in place, for these are as many as the samples of a usual record
+    np.abs(multiples, out=multiples)
+    np.divide(multiples, smallest, out=multiples)
+    np.round(multiples, out=multiples)
+    multiples.sort()
+    starts = np.append(0, 1 + np.flatnonzero(multiples[1:] != multiples[:-1]))
+    steps, counts = multiples[starts], np.diff(starts, append=multiples.size)
+    frequent = steps[(steps > 0.0) & (counts >= FREQUENT_SHARE * max(counts[steps > 0.0].sum(), 1))]
+    return smallest * float(frequent.max(initial=1.0))
+
+
 def _is_shaking(samples: FloatArray, peak: float) -> bool:
     """Return whether samples next to a flat run are those of shaking."""
     return samples.size >= _NEIGHBOURHOOD // 2 and float(np.median(np.abs(np.diff(samples)))) > 0.002 * peak
@@ -170,6 +274,20 @@ def _ends_at_rest(samples: FloatArray, value: float) -> bool:
     extrapolated = 3.0 * (pulse[-1] - pulse[-2]) + pulse[-3]
     tolerance = EDGE_RATIO * float(np.abs(pulse).max())
     return bool(is_smooth and min(pulse[-1], extrapolated) - tolerance <= 0.0 <= max(pulse[-1], extrapolated) + tolerance)
+
+
+def _check_interval(record: Record) -> Iterator[QCFlag]:
+    """Yield a flag for a sampling interval that no strong-motion recorder has, with its probable reason."""
+    dt = record.dt
+    # half a unit of the ninth digit: 1/2000 s and 1/10 s are inside
+    if MIN_INTERVAL_S * (1.0 - 1e-9) <= dt <= MAX_INTERVAL_S * (1.0 + 1e-9):
+        return
+    reasons = {0.001 * dt: _MILLISECONDS, 86400.0 * dt: _DAYS, 0.01 * dt: _SAMPLE_NUMBERS if dt == 1.0 else _OTHER_INTERVAL}
+    plausible = [reason for interval, reason in reasons.items() if MIN_INTERVAL_S <= interval <= MAX_INTERVAL_S]
+    # recorders with a network code state their rate themselves
+    reason = plausible[-1 if dt == 1.0 else 0] if plausible and not record.network else _OTHER_INTERVAL
+    text = lazy_gettext("sampling interval {dt:.4g} s, expected 0.0005 to 0.1 s: {reason}", dt=dt, reason=lazy_gettext(reason))
+    yield QCFlag("clock", text)
 
 
 def _check_duplicates(record: Record) -> Iterator[QCFlag]:
@@ -205,9 +323,6 @@ def _check_directions(record: Record) -> Iterator[QCFlag]:
             other=second.code,
             apart=angle,
         )
-        yield QCFlag("directions", text)
-    if record.vertical is None and {first.code, second.code} != {"NS", "EW"}:
-        text = lazy_gettext("horizontals {one} and {other} without a vertical component", one=first.code, other=second.code)
         yield QCFlag("directions", text)
 
 

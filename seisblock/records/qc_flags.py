@@ -16,6 +16,8 @@ FLAG_KINDS = {
     "point": "a number lacks the decimal point that all others of its column have",
     "spike": "isolated outlier sample",
     "jump": "isolated step between two samples",
+    "repetition": "samples repeat earlier ones exactly",
+    "sign": "minus signs are lost",
     "held": "constant value during shaking, as in a filled gap",
     "clipped": "flat peaks, as of a saturated instrument",
     "offset": "mean is a large part of the peak",

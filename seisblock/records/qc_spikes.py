@@ -25,7 +25,9 @@ SPIKE_ASYMMETRY = 0.5
 """Largest difference of the samples on both sides of a spike, as a ratio of its height."""
 
 _MARGIN = NEIGHBOUR_STEPS + EXCLUDED_STEPS
-_BLOCK = 2**20
+
+BLOCK = 2**20
+"""Samples checked at a time, here and for repetitions, so that a day-long record needs no temporary arrays of its size."""
 
 
 def find_spikes_and_jumps(acceleration: FloatArray) -> tuple[IntArray, IntArray]:
@@ -50,14 +52,13 @@ def find_spikes_and_jumps(acceleration: FloatArray) -> tuple[IntArray, IntArray]
     in high frequencies can hide both.
     """
     spikes, jumps = _find_end_spikes(acceleration), []
-    # in blocks, so that a day-long record needs no temporary arrays of its size
-    for start in range(0, acceleration.size, _BLOCK):
+    for start in range(0, acceleration.size, BLOCK):
         offset = max(start - 2 * _MARGIN, 0)
-        piece = acceleration[offset : start + _BLOCK + 2 * _MARGIN]
+        piece = acceleration[offset : start + BLOCK + 2 * _MARGIN]
         if piece.size < 2 * _MARGIN + 5:
             continue
         # candidates near the overlap are found twice; each block reports its own samples only
-        block = range(start - offset, min(start + _BLOCK, acceleration.size) - offset)
+        block = range(start - offset, min(start + BLOCK, acceleration.size) - offset)
         step = np.diff(piece)
         lone = {s for s in _find_spikes(step) if s in block}
         spikes += [s + offset for s in lone]
@@ -85,7 +86,9 @@ def _find_spikes(step: FloatArray) -> Iterator[int]:
         rise, fall = step[i], step[i + 1]
         adjacent = max(abs(step[i - 1]) if i > 0 else 0.0, abs(step[i + 2]) if i + 2 < step.size else 0.0)
         smaller = min(abs(rise), abs(fall))
-        if rise * fall < 0.0 and abs(rise + fall) < SPIKE_ASYMMETRY * smaller and smaller > STEEPNESS_RATIO * adjacent:
+        # the second and the last but one sample: artefacts of corrected records, whose ends are differentiated or filtered
+        is_inner = 1 < i + 1 < step.size - 1
+        if is_inner and rise * fall < 0.0 and abs(rise + fall) < SPIKE_ASYMMETRY * smaller and smaller > STEEPNESS_RATIO * adjacent:
             yield i + 1
 
 
@@ -112,3 +115,42 @@ def _find_outliers(surprise: FloatArray) -> list[int]:
     background = np.maximum(np.median(windows[:, :NEIGHBOUR_STEPS], axis=1), np.median(windows[:, -NEIGHBOUR_STEPS:], axis=1))
     indices: list[int] = candidates[(surprise[candidates] >= largest) & (surprise[candidates] > SURPRISE_RATIO * background)].tolist()
     return indices
+
+
+FLIP_RATIO, FLIP_RESIDUAL = 25.0, 3.0
+"""Deviation from the neighbours as a multiple of the background: of a sample as it is, at least; with the opposite sign, at most."""
+
+
+def find_flipped_samples(acceleration: FloatArray) -> IntArray:
+    """Return indices of samples that fit their neighbours with the opposite sign only.
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+
+    Notes
+    -----
+    The expected value of a sample is that of the cubic through its two neighbours on each side; the background is the median of its
+    deviations in the ten samples on each side. Single samples only: neighbours must have their signs.
+    """
+    indices: list[int] = []
+    for start in range(0, acceleration.size, BLOCK):
+        offset = max(start - 2 * _MARGIN, 0)
+        piece = acceleration[offset : start + BLOCK + 2 * _MARGIN]
+        if piece.size < 2 * _MARGIN + 5:
+            continue
+        middle = piece[2:-2]
+        expected = (4.0 * (piece[1:-3] + piece[3:-1]) - piece[:-4] - piece[4:]) / 6.0
+        residual, flipped_residual = np.abs(middle - expected), np.abs(middle + expected)
+        # prefilter: a sample of size x with the wrong sign deviates by 2 x
+        # a lost minus is a positive sample between negative ones
+        is_between = (middle > 0.0) & (np.maximum(np.maximum(piece[1:-3], piece[3:-1]), np.maximum(piece[:-4], piece[4:])) < 0.0)
+        candidates = np.flatnonzero(is_between & (residual > MIN_SURPRISE) & (flipped_residual < 0.2 * residual))
+        for i in candidates.tolist():
+            background = np.concatenate(
+                (residual[max(i - _MARGIN, 0) : max(i - EXCLUDED_STEPS, 0)], residual[i + EXCLUDED_STEPS + 1 : i + _MARGIN + 1])
+            )
+            usual = float(np.median(background)) if background.size else np.inf
+            if residual[i] > FLIP_RATIO * usual and flipped_residual[i] < FLIP_RESIDUAL * usual and start <= offset + i + 2 < start + BLOCK:
+                indices.append(offset + i + 2)
+    return np.array(indices, dtype=np.int64)

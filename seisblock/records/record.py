@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
+from typing import Any
 
 import numpy as np
 
@@ -184,6 +186,84 @@ class Record(PlotMixin):
         if start is not None and start.tzinfo is None:
             start = start.replace(tzinfo=UTC)
         return cls(tuple(columns), dt, station=station, start=start)
+
+    @classmethod
+    def from_obspy(cls, stream: Any, inventory: Any = None, event: Any = None, **options: Any) -> Record:
+        """Return the record of an ObsPy Stream or Trace.
+
+        Parameters
+        ----------
+        stream : obspy.Stream or obspy.Trace
+            Traces of one station and sensor; not modified. Counts require `inventory` or a response attached to the traces. Floating-point
+            samples of an accelerometer without a response, and samples after ``remove_response(output="ACC")``, are taken in m/s^2.
+        inventory : obspy.Inventory or None
+            Responses; these are removed, and azimuths, dips and coordinates taken.
+        event : obspy Event, Catalog, path or None
+            Earthquake of the record.
+        **options
+            ``units``, ``station``, ``location``, ``differentiate`` and ``response``, as for :func:`~seisblock.readers.read`.
+
+        Raises
+        ------
+        UnitError
+            If samples are counts without a response, or velocities.
+        ComponentError
+            If the stream has several stations or sensors, and none is selected.
+        RecordFormatError
+            If a trace has gaps.
+
+        Examples
+        --------
+        >>> import numpy as np, obspy
+        >>> header = {"network": "XX", "station": "ABC", "location": "00", "channel": "HNE", "delta": 0.01}
+        >>> record = Record.from_obspy(obspy.Trace(np.sin(np.arange(500.0)), header))
+        >>> record.network, record.station, record.location, record.channels
+        ('XX', 'ABC', '00', {'EW': 'HNE'})
+        """
+        return cls._streams().record_from_obspy(stream, inventory, event, **options)  # type: ignore[no-any-return]
+
+    def to_obspy(self) -> Any:
+        """Return the record as an ObsPy Stream: m/s^2, full channel names, azimuths in ``stats.seisblock``.
+
+        Examples
+        --------
+        >>> from seisblock.readers import read
+        >>> stream = read("synthetic_jma.csv").to_obspy()
+        >>> [(trace.id, trace.stats.seisblock.azimuth_deg) for trace in stream]
+        [('.SYN..NS', 0.0), ('.SYN..EW', 90.0), ('.SYN..UD', None)]
+        """
+        return self._streams().record_to_obspy(self)
+
+    @staticmethod
+    def _streams() -> Any:
+        # by name, as readers are a higher layer and ObsPy loads slowly
+        return importlib.import_module("seisblock.readers.streams")
+
+    @property
+    def network(self) -> str:
+        """Code of the network, empty when unknown."""
+        return str(self.metadata.get("network", ""))
+
+    @property
+    def location(self) -> str:
+        """SEED location code of the sensor, empty when unknown."""
+        return str(self.metadata.get("location", ""))
+
+    @property
+    def channels(self) -> dict[str, str]:
+        """Name of the channel by component code, as far as the file states it."""
+        channels = self.metadata.get("channels")
+        return {code: str(name) for code, name in channels.items()} if isinstance(channels, dict) else {}
+
+    @property
+    def seed_id(self) -> str:
+        """Network, station, location and channels, such as ``CI.MIKB..HN?``; empty without network and channels."""
+        names = list(dict.fromkeys(self.channels.values()))
+        if not self.network or not names:
+            return ""
+        sensors = {name[:-1] for name in names}
+        channel = names[0] if len(names) == 1 else f"{sensors.pop()}?" if len(sensors) == 1 else ",".join(names)
+        return f"{self.network}.{self.station}.{self.location}.{channel}"
 
     @property
     def carries_offset(self) -> bool:

@@ -41,6 +41,8 @@ class Site:
     ----------
     code, name : str
         Empty if not in the file.
+    seed_id : str
+        Network, station, location and channels; empty without a network.
     latitude_deg, longitude_deg : float or None
         Latitude north and longitude east, degrees.
     height_m : float or None
@@ -52,11 +54,12 @@ class Site:
     latitude_deg: float | None = None
     longitude_deg: float | None = None
     height_m: float | None = None
+    seed_id: str = ""
 
     @property
     def label(self) -> str:
-        """Code and name, as far as known."""
-        return " ".join(dict.fromkeys(part for part in (self.code, self.name) if part))
+        """SEED id or code, and name, as far as known."""
+        return " ".join(dict.fromkeys(part for part in (self.seed_id or self.code, self.name) if part))
 
     @property
     def place(self) -> tuple[float, float] | None:
@@ -99,11 +102,11 @@ def get_site(record: Record) -> Site:
     latitude, longitude, height = (_metadata_number(record, f"station_{key}") for key in ("latitude_deg", "longitude_deg", "height_m"))
     if not latitude and not longitude:
         latitude = longitude = None  # some networks write zeros for unknown coordinates
-    return Site(record.station, name if isinstance(name, str) else "", latitude, longitude, height)
+    return Site(record.station, name if isinstance(name, str) else "", latitude, longitude, height, record.seed_id)
 
 
 def matches_station(record: Record, station: str) -> bool:
-    """Return whether `station` is the code or the name of a record's station, ignoring case.
+    """Return whether `station` is the code, with or without network, or the name of a record's station, ignoring case.
 
     Examples
     --------
@@ -111,7 +114,8 @@ def matches_station(record: Record, station: str) -> bool:
     >>> matches_station(read("hanmer_springs_2016"), "hses")
     True
     """
-    return station.strip().lower() in (record.station.lower(), get_site(record).name.lower())
+    names = (record.station, f"{record.network}.{record.station}", get_site(record).name)
+    return station.strip().lower() in (name.lower() for name in names)
 
 
 def source_name(record: Record) -> str:

@@ -25,8 +25,9 @@ SOFTWARE = Reference(
 """Reference of this program."""
 
 TOPIC_PAPERS: dict[str, tuple[str, ...]] = {
-    "measures": ("Furukawa2009", "JMA1996", "JMA2016", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
+    "measures": ("Furukawa2009", "JMA1996", "JMA2016", "Arias1970", "TrifunacBrady1975", "Parzen1961", "NigamJennings1969", "Boore2010"),
     "response spectrum": ("NigamJennings1969",),
+    "spectrum of all directions": ("Boore2010",),
     "storey": ("NigamJennings1969", "Chopra2012"),
     "sliding": ("Fujino1978",),
     "one-way sliding": ("Newmark1965",),
@@ -37,7 +38,8 @@ TOPIC_PAPERS: dict[str, tuple[str, ...]] = {
     "landing with friction": ("WangMason1992", "Moreau1988"),
     "uplift": ("Okumura1987",),
     "pile": ("Furukawa2009",),
-    "rigid pile": ("Furukawa2009", "Gottschalk1996", "Jean1999", "Moreau1988", "Silcowitz2010", "TasoraAnitescu2011"),
+    "rigid pile": ("Furukawa2009", "AlartCurnier1991", "Gottschalk1996", "Jean1999", "Moreau1988", "Silcowitz2010", "TasoraAnitescu2011"),
+    "rigid body in space": ("Moreau1988", "Jean1999", "SimoWong1991", "AlartCurnier1991"),
     "all modes": ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999"),
     "overturning criteria": ("Furukawa2009", "Tsutsui", "Housner1963", "Zhang2001", "Ishiyama1982"),
     "gravestones as fitted": ("Furukawa2009",),
@@ -46,6 +48,7 @@ TOPIC_PAPERS: dict[str, tuple[str, ...]] = {
     "fit": ("AndrieuRoberts2009", "Cornuet2012", "Richtmyer1951", "Brier1950"),
     "fragility": ("Baker2015", "Vamvatsikos2002", "LucoCornell2007", "DimitrakopoulosParaskeva2015", "Lilliefors1967", "SuWei1991"),
     "risk": ("Cornell2002",),
+    "scenario": ("JMA1996", "JMA2009", "KornGraubard1998"),
     "synthetic records": (
         "Boore2003",
         "Campbell2003",
@@ -76,24 +79,31 @@ def find_citations(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 COMMAND_PAPERS: dict[str, tuple[str, ...]] = {
+    "rock": papers("rocking", "overturning criteria", "scenario", "synthetic records"),
+    "respond": papers("all modes", "two-layer body", "rigid body in space"),
     "measure": papers("measures", "response spectrum"),
     "batch": papers("all modes", "two-layer body"),
     "map": papers("measures", "all modes", "gravestones as fitted", "intensity of a velocity"),
     "body": papers("a scan's arms"),
     "risk": papers("risk"),
-    "fragility": papers("fragility", "all modes", "rocking", "sliding", "rigid pile", "synthetic records"),
+    "scenario": papers("scenario", "all modes", "synthetic records"),
+    "secure": papers("scenario", "all modes", "synthetic records"),
+    "fragility": papers("fragility", "spectrum of all directions", "all modes", "rocking", "sliding", "rigid pile", "synthetic records"),
     "criteria": papers("overturning criteria", "rocking", "all modes"),
     "spectrum": papers("rocking", "sliding", "all modes"),
     "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),
-    "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump"),
+    "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump", "rigid body in space"),
     "fit": papers("rocking", "fit"),
+    "report": papers(
+        "measures", "response spectrum", "all modes", "rocking", "sliding", "jump", "uplift", "overturning criteria", "two-layer body"
+    ),
 }
-"""Papers used by each command other than the solvers with default options; each JSON document lists those of its result."""
+"""Papers used by each command, where they are not those of its solver alone; each JSON document lists those of its result."""
 
 
 def cited_commands() -> tuple[str, ...]:
     """Return the commands with references."""
-    return (*solver_names(), *COMMAND_PAPERS)
+    return tuple(dict.fromkeys((*solver_names(), *COMMAND_PAPERS)))
 
 
 def command_papers(command: str) -> tuple[str, ...]:

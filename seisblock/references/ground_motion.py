@@ -6,12 +6,28 @@ from seisblock.references.reference import Reference
 
 GROUND_MOTION = (
     Reference(
+        "JMA2009",
+        "Japan Meteorological Agency",
+        2009,
+        "Tables explaining the JMA Seismic Intensity Scale (in Japanese: Kishocho shindo kaikyu kanren kaisetsuhyo)",
+        "Japan Meteorological Agency, Tokyo, https://www.jma.go.jp/jma/kishou/know/shindo/kaisetsu.html",
+        kind="techreport",
+    ),
+    Reference(
         "Boore2003",
         "Boore, D. M.",
         2003,
         "Simulation of ground motion using the stochastic method",
         "Pure and Applied Geophysics, 160(3-4), 635-676",
         doi="10.1007/PL00012553",
+    ),
+    Reference(
+        "Boore2010",
+        "Boore, D. M.",
+        2010,
+        "Orientation-independent, nongeometric-mean measures of seismic intensity from two horizontal components of motion",
+        "Bulletin of the Seismological Society of America, 100(4), 1830-1835",
+        doi="10.1785/0120090400",
     ),
     Reference(
         "Campbell2003",

@@ -82,6 +82,22 @@ LITERATURE = (
         kind="book",
     ),
     Reference(
+        "AlartCurnier1991",
+        "Alart, P., and Curnier, A.",
+        1991,
+        "A mixed formulation for frictional contact problems prone to Newton like solution methods",
+        "Computer Methods in Applied Mechanics and Engineering, 92(3), 353-375",
+        doi="10.1016/0045-7825(91)90022-X",
+    ),
+    Reference(
+        "SimoWong1991",
+        "Simo, J. C., and Wong, K. K.",
+        1991,
+        "Unconditionally stable algorithms for rigid body dynamics that exactly preserve energy and momentum",
+        "International Journal for Numerical Methods in Engineering, 31(1), 19-52",
+        doi="10.1002/nme.1620310103",
+    ),
+    Reference(
         "Jean1999",
         "Jean, M.",
         1999,

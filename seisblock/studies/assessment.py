@@ -1,156 +1,531 @@
-"""Assessment of some bodies under one record by every applicable model, for a report."""
+"""Assessment of one object: overturning probability, range of the models, predictability and class, the same for every command."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+import math
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.bodies.block import Block
+from seisblock.bodies.convex import convex_body
+from seisblock.bodies.factory import block_for_motion
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.scan.body import EAST, ScannedBody
+from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
+from seisblock.core.errors import ComponentError, ParameterError, SolverError
+from seisblock.core.i18n import N_
 from seisblock.core.results import Response
-from seisblock.core.typing import Progress
+from seisblock.core.typing import BoolArray, FloatArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.criteria.compare import CriterionResult, overturning_card
-from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures, measure
-from seisblock.models.jump.solve import solve_jump
+from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.options import RespondOptions
+from seisblock.models.respond.solve import respond_params
+from seisblock.models.rigid3d.outcome import Rigid3dOutcome
+from seisblock.models.rigid3d.solve import solve_rigid3d
 from seisblock.models.rock.options import RockOptions
-from seisblock.models.rock.solve import solve_rock
-from seisblock.models.slide.solve import solve_slide
-from seisblock.models.uplift.solve import solve_uplift
+from seisblock.models.stack.options import StackOptions
+from seisblock.models.stack.outcome import StackOutcome
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion, Record, motion_of
-from seisblock.references import find_citations
-from seisblock.studies.report.models import BodyModels
-from seisblock.studies.respond.best_estimate import BestEstimate, best_estimate
-from seisblock.studies.respond.probability import RUNS
-from seisblock.studies.rocking.margin import Margin, find_margin, flag_near_flip
+from seisblock.records._validation import Gain, vertical_gain
+from seisblock.studies.model_comparison import PILE, ModelComparison, ModelResult, compare_models, compare_pile_models
+from seisblock.studies.predictability import (
+    respond_predictable_until,
+    rigid3d_predictable_until,
+    rock_predictable_until,
+    stack_predictable_until,
+)
+from seisblock.studies.respond.best_estimate import no_slip_friction
+from seisblock.studies.sampling import MOVED_M, PILE_RUNS, RUNS, ParameterVariation, Samples, join_directions, sample
+
+LIKELY, MAY, MOVES, STAYS = N_("likely overturns"), N_("may overturn"), N_("moves"), N_("stays")
+"""Classes, the most severe first."""
+
+LIKELY_SHARE, MAY_SHARE = 0.5, 0.05
+"""Smallest probabilities of the classes ``likely overturns`` and ``may overturn``; the latter also holds for ``moves``."""
+
+FULL_RESPONSE = N_("full response")
+"""Name of the model of :mod:`seisblock.models.respond` among the models of an object."""
+
+THREE_DIMENSIONS = N_("three dimensions")
+"""Name of the model of :mod:`seisblock.models.rigid3d` among the models of an object."""
+
+MIN_FACTOR, MAX_FACTOR, FACTOR_STEP, REFINEMENT = 0.02, 4.0, 1.05, 16
+"""Smallest and largest factor of the search for the first overturning, ratio of consecutive factors, parts of the last step."""
+
+PILE_STEP, PILE_BISECTIONS, MIN_PILE_FACTOR = 1.25, 3, 0.05
+"""The same for a pile or a body in three dimensions, whose runs are expensive: ratio of consecutive factors, halvings, smallest factor."""
 
 
-@dataclass(frozen=True, eq=False)
-class ModelResponse:
-    """Response of one body under one component by one model.
+@dataclass(frozen=True, repr=False)
+class ModelVerdict(DisplayMixin):
+    """Verdict of one model of an object.
 
     Parameters
     ----------
-    kind : "respond", "rock", "slide", "jump" or "uplift"
-        The first is the full model, the others are idealised.
-    response : Response
-    onset : float or None
-        Factor on the record at which rocking, sliding or uplift starts; None if undefined.
-    margin : Margin or None
-        Of rocking: the factors at which the verdict changes.
-    governing : BestEstimate or None
-        Of the full model: its overturning probability, and a flag for a known friction.
+    name : str
+    overturns : bool
+        Under the unscaled motion.
+    factor_to_overturn : float or None, 1
+        Factor on the motion at which it overturns; None where it does not up to 4, or is not computed.
     """
 
-    kind: str
-    response: Response[Any]
-    onset: float | None
-    margin: Margin | None = None
-    governing: BestEstimate | None = None
+    name: str
+    overturns: bool
+    factor_to_overturn: float | None
+
+
+@dataclass(frozen=True, repr=False)
+class Assessment(DisplayMixin):
+    """Assessment of one object, in one direction or under any horizontal of a record.
+
+    Parameters
+    ----------
+    overturning_probability : float, 1
+        Share of the samples of object and shaking that overturn: parameter variation only, model error not included.
+    interval : (float, float), 1
+        Its Clopper-Pearson interval at 95 %.
+    runs : int
+        Samples with a result.
+    moved_probability : float, 1
+        Share of the samples that overturn or end more than 1 cm (or the given length) from their place.
+    models : tuple of ModelVerdict
+        Nominal object by each model.
+    least_factor, greatest_factor : float or None, 1
+        Range of their factors to overturning.
+    predictable_until_s : float or None, s
+        Time from the record's first sample until which changes of the input by 2e-6 do not alter the run; None: to its end.
+    direction : str
+        Component or azimuth; of an object under several, the one with the largest probability.
+    class_ : str
+        ``likely overturns`` (probability at least .5), ``may overturn`` (at least .05), ``moves`` (moved_probability at least .05) or
+        ``stays``; the key ``class`` in documents.
+    """
+
+    overturning_probability: float
+    interval: tuple[float, float]
+    runs: int
+    moved_probability: float
+    models: tuple[ModelVerdict, ...]
+    least_factor: float | None
+    greatest_factor: float | None
+    predictable_until_s: float | None
+    direction: str
+    class_: str
+
+
+def classify(overturning_probability: float, moved_probability: float) -> str:
+    """Return the class of an object.
+
+    Examples
+    --------
+    >>> [classify(*pair) for pair in ((0.5, 0.5), (0.49, 0.6), (0.04, 0.05), (0.04, 0.04))]
+    ['likely overturns', 'may overturn', 'moves', 'stays']
+    """
+    if overturning_probability >= LIKELY_SHARE:
+        return LIKELY
+    if overturning_probability >= MAY_SHARE:
+        return MAY
+    return MOVES if moved_probability >= MAY_SHARE else STAYS
 
 
 @dataclass(frozen=True, eq=False)
-class BodyAssessment:
-    """Responses of one body, and its criteria for each component."""
+class DirectionAssessment:
+    """Assessment in one direction with the samples behind it.
 
-    subject: BodyModels
-    effects: tuple[ModelResponse, ...]
-    cards: dict[str, tuple[CriterionResult, ...]]
+    Parameters
+    ----------
+    samples : Samples
+    assessment : Assessment
+    comparison : ModelComparison or None
+        Of the same models, with their remarks; None for a pile whose top stone is fixed.
+    moved_m : float, m
+        Residual displacement above which the object has moved.
+    """
 
-
-@dataclass(frozen=True, eq=False)
-class Assessment:
-    """Assessment of some bodies under one record."""
-
-    record: Record
-    measures: RecordMeasures
-    bodies: tuple[BodyAssessment, ...]
-    gravity: float
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """All warnings, without duplicates."""
-        messages = [
-            *self.measures.warnings,
-            *(text for body in self.bodies for effect in body.effects for text in effect.response.warnings),
-        ]
-        return tuple(dict.fromkeys(messages))
-
-    @property
-    def citations(self) -> tuple[str, ...]:
-        """Keys of the cited papers."""
-        keys = [*self.measures.citations, *(key for body in self.bodies for effect in body.effects for key in effect.response.citations)]
-        cards = find_citations(row.where for body in self.bodies for rows in body.cards.values() for row in rows)
-        return tuple(dict.fromkeys([*keys, *cards]))
+    samples: Samples
+    assessment: Assessment
+    comparison: ModelComparison | None
+    moved_m: float = MOVED_M
 
 
 def assess(
-    record: Record,
-    subjects: Sequence[BodyModels],
+    body: Block | ScannedBody | Pile,
+    record: Record | Motion,
     *,
-    components: Sequence[str] | None = None,
-    drop: float = 0.0,
+    mu: float | None = None,
+    mu_kinetic: float | None = None,
+    components: Sequence[str] = (),
+    runs: int | None = None,
+    moved_m: float = MOVED_M,
+    priors: ParameterVariation = ParameterVariation(),
+    seed: int = 0,
+    vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
     progress: Progress | None = None,
 ) -> Assessment:
-    """Apply every model that a body allows to every horizontal component.
+    """Assess whether an object overturns, or moves, under a record: full response, or rigid contact in three dimensions for a pile.
+
+    A block or a scan is solved in each horizontal direction; it overturns if it does so in any of them. A pile meets all components at
+    once.
 
     Parameters
     ----------
-    record : Record
-    subjects : sequence of BodyModels
+    body : Block, ScannedBody or Pile
+        With the prior of its kind, from which unmeasured edge wear and friction are drawn.
+    record : Record or Motion
+        All horizontals of a record, or one motion.
+    mu, mu_kinetic : float or None, 1
+        Friction. None: middle of the prior of the body's kind, else a friction without slip; a pile has its own.
     components : sequence of str
-        Horizontal components or azimuths; default: all horizontals.
-    drop : float, m
-        Height of the floor above the ground, for the jump.
+        Codes or azimuths; default: all horizontals.
+    runs : int or None
+        Samples; default: 200, of a pile 20.
+    moved_m : float, m
+        Residual displacement above which the object has moved.
+    priors : ParameterVariation
+        Half widths of what is known.
+    seed : int
+        The same seed gives the same samples.
+    vertical : bool, float or None
+        True or a factor to apply the vertical component; None: if the record has one.
     gravity : float, m/s^2
     progress : callable
-        Called with the number of finished bodies and components and the total.
+        Called with the number of finished runs and the total, in each direction anew.
+
+    Returns
+    -------
+    Assessment
+
+    Raises
+    ------
+    KindError, ParameterError
+        If an argument has the wrong type or lies outside its range.
+    ComponentError
+        If the record has no such component, or no horizontal.
+    SolverError
+        If no sample has a result.
+
+    Examples
+    --------
+    >>> from seisblock import load_block, read
+    >>> assessment = assess(load_block("gravestone"), read("synthetic_jma.csv"), mu=0.6, runs=20)
+    >>> assessment.class_, assessment.runs
+    ('likely overturns', 20)
     """
-    names = tuple(components or (component.code for component in record.horizontals))
-    conventions = Conventions(gravity_m_s2=gravity)
-    record_measures = measure(record, tuple(dict.fromkeys((*names, *record.codes))), conventions=conventions)
-    by_name = {component_measures.component: component_measures for component_measures in record_measures.components}
-    motions = [motion_of(record, name) for name in names]
-    bodies, done_count, total = [], 0, len(subjects) * len(motions)
-    for subject in subjects:
-        effects: list[ModelResponse] = []
-        cards = {}
-        for name, motion in zip(names, motions, strict=True):
-            effects += _model_responses(subject, motion, drop, gravity)
-            cards[motion.name] = _criteria_rows(subject, by_name[name], gravity)
-            done_count += 1
-            if progress is not None:
-                progress(done_count, total)
-        bodies.append(BodyAssessment(subject, tuple(effects), cards))
-    return Assessment(record, record_measures, tuple(bodies), gravity)
+    checks.instance(record, Motion if isinstance(record, Motion) else Record)
+    checks.instance(body, Pile if isinstance(body, Pile) else ScannedBody if isinstance(body, ScannedBody) else Block)
+    checks.positive("the residual displacement that counts as moved", moved_m, "m")
+    motions = _motions(record, components, several=not isinstance(body, Pile))
+    if isinstance(body, Pile):
+        if not (mu is None and mu_kinetic is None):
+            raise ParameterError("`mu` has no effect on a pile, which has a friction in each joint: omit it")
+        solver = "stack"
+        bodies: list[Any] = [body] * len(motions)
+        options: list[Any] = [StackOptions(vertical=vertical, gravity=gravity)] * len(motions)
+    else:
+        if mu is None and mu_kinetic is not None:
+            raise ParameterError("`mu_kinetic` requires `mu`")
+        solver = "respond"
+        bodies = [_block(body, motion, mu) for motion in motions]
+        frictions = [_friction(block) if mu is None else mu for block in bodies]
+        options = [RespondOptions(mu=friction, mu_kinetic=mu_kinetic, vertical=vertical, gravity=gravity) for friction in frictions]
+    count = (PILE_RUNS if solver == "stack" else RUNS) if runs is None else runs
+    parts = [
+        assess_direction(solver, *case, count, priors=priors, seed=seed, moved_m=moved_m, progress=progress)
+        for case in zip(bodies, motions, options, strict=True)
+    ]
+    return parts[0].assessment if len(parts) == 1 else assess_object(parts)
 
 
-def _model_responses(subject: BodyModels, motion: Motion, drop: float, gravity: float) -> Iterator[ModelResponse]:
-    """Yield the response of one body under one component by every model."""
-    peak = float(np.abs(motion.horizontal).max())
-    estimate = best_estimate(subject.block, motion, mu=subject.mu, mu_kinetic=subject.mu_kinetic, gravity=gravity, runs=RUNS)
-    yield ModelResponse("respond", estimate.response, None, governing=estimate)
-    rock = flag_near_flip(solve_rock(subject.block, motion, restitution=subject.restitution, gravity=gravity))
-    margin = find_margin(subject.block, motion, options=RockOptions(restitution=subject.restitution, gravity=gravity))
-    yield ModelResponse("rock", rock, _ratio(rock.outcome.threshold_m_s2, peak), margin)
-    if subject.mu is not None:
-        slide = solve_slide(SlidingBase(subject.mu, subject.mu_kinetic), motion, gravity=gravity)
-        yield ModelResponse("slide", slide, _ratio(subject.mu * gravity, peak))
-    if subject.layers is not None and subject.contact is not None:
-        jump = solve_jump(subject.layers, motion, contact=subject.contact, drop=drop, gravity=gravity)
-        yield ModelResponse("jump", jump, _ratio(jump.outcome.rocking_threshold_m_s2, peak))
-    if subject.springs is not None:
-        lift = solve_uplift(subject.springs, motion, gravity=gravity)
-        yield ModelResponse("uplift", lift, lift.outcome.uplift_scale)
+def assess_direction(
+    solver: str,
+    body: Any,
+    motion: Motion,
+    options: Any,
+    runs: int,
+    *,
+    priors: ParameterVariation = ParameterVariation(),
+    seed: int = 0,
+    moved_m: float = MOVED_M,
+    progress: Progress | None = None,
+) -> DirectionAssessment:
+    """Return the assessment of a body in one direction.
+
+    Parameters
+    ----------
+    solver : str
+        ``respond``, ``rock``, ``rigid3d`` or ``stack``.
+    body, motion, options, runs, priors, seed, progress
+        As in :func:`~seisblock.studies.sampling.sample`.
+    moved_m : float, m
+    """
+    samples = sample(solver, body, motion, options, runs, priors, seed=seed, progress=progress)
+    if solver == "stack":
+        return assess_pile(solve_stack(body, motion, **options.keywords()), samples, moved_m=moved_m)
+    if solver == "rigid3d":
+        return assess_rigid3d(solve_rigid3d(body, motion, **options.keywords()), samples, moved_m=moved_m)
+    if solver == "rock":
+        return assess_rock(body, motion, options, samples)
+    return assess_respond(body, motion, options, samples, moved_m=moved_m)
 
 
-def _ratio(threshold: float, peak: float) -> float | None:
-    """Return the factor on a record at which its peak reaches a threshold."""
-    return threshold / peak if peak > 0.0 else None
+def assess_record(solver: str, body: Block | ScannedBody, record: Record, options: Any, runs: int, *, seed: int = 0) -> Assessment:
+    """Return the assessment of an object under any horizontal component of a record.
+
+    Parameters
+    ----------
+    solver : str
+        ``respond`` or ``rock``.
+    body, record, options, runs, seed
+        As in :func:`assess_direction`.
+    """
+    motions = _motions(record, (), several=True)
+    parts = [assess_direction(solver, block_for_motion(body, motion), motion, options, runs, seed=seed) for motion in motions]
+    return parts[0].assessment if len(parts) == 1 else assess_object(parts)
 
 
-def _criteria_rows(subject: BodyModels, measures: ComponentMeasures, gravity: float) -> tuple[CriterionResult, ...]:
-    return overturning_card(subject.block, measures.pga_m_s2, measures.pgv_m_s, asdict(measures.equivalent_frequency_hz), gravity)
+def _block(body: Block | ScannedBody, motion: Motion, mu: float | None) -> Block:
+    """Return the block of a body for a motion; a given friction replaces the prior of its kind."""
+    block = block_for_motion(body, motion)
+    assert isinstance(block, Block)
+    return block if mu is None else block.without_ranges("mu")
+
+
+def _motions(record: Record | Motion, components: Sequence[str], *, several: bool) -> list[Motion]:
+    """Return the motions of a record that act on an object one by one."""
+    if isinstance(record, Motion):
+        if components:
+            raise ParameterError("`components` requires a record, found a motion: omit it")
+        return [record]
+    names = list(components) or [component.code for component in record.horizontals]
+    if not names:
+        raise ComponentError("{source}: no horizontal component; available: {codes}", source=record.source, codes=record.codes)
+    # all components act on a pile in every run
+    return [motion_of(record, name) for name in (names if several or components else names[:1])]
+
+
+def _friction(block: Block) -> float:
+    """Return the friction of a body of unknown friction: the middle of the prior of its kind, else one without slip."""
+    if block.ranges is not None and block.ranges.mu is not None:
+        return 0.5 * sum(block.ranges.mu)
+    return no_slip_friction(block)
+
+
+def assess_respond(
+    block: Block, motion: Motion, options: RespondOptions, samples: Samples, *, moved_m: float = MOVED_M
+) -> DirectionAssessment:
+    """Return the assessment of a free-standing object in one direction.
+
+    Parameters
+    ----------
+    block, motion, options
+        As in :func:`~seisblock.models.respond.solve.solve_respond`.
+    samples : Samples
+        Of the same object, motion and options.
+    moved_m : float, m
+    """
+    respond_result = _full_response(block, motion, options)
+    rocking = RockOptions(vertical=options.vertical, gravity=options.gravity)
+    comparison = compare_models(block, motion, extra_results=() if respond_result is None else (respond_result,), options=rocking)
+    until = respond_predictable_until(block, motion, options)
+    return DirectionAssessment(samples, _assessment(samples, comparison.opinions, until, motion.name, moved_m), comparison, moved_m)
+
+
+def assess_rock(
+    block: Block, motion: Motion, options: RockOptions, samples: Samples, *, comparison: ModelComparison | None = None
+) -> DirectionAssessment:
+    """Return the assessment of a rocking block in one direction; it ends in its place unless it overturns.
+
+    Parameters
+    ----------
+    block, motion, options
+        As in :func:`~seisblock.models.rock.solve.solve_rock`.
+    samples : Samples
+        Of the same block, motion and options.
+    comparison : ModelComparison or None
+        Of the same block, if computed already.
+    """
+    comparison = comparison or compare_models(block, motion, options=options)
+    until = rock_predictable_until(block, motion, options)
+    return DirectionAssessment(samples, _assessment(samples, comparison.opinions, until, motion.name, MOVED_M), comparison)
+
+
+def assess_pile(response: Response[StackOutcome], samples: Samples, *, moved_m: float = MOVED_M) -> DirectionAssessment:
+    """Return the assessment of a pile: a fall of any stone counts.
+
+    Parameters
+    ----------
+    response : Response
+        Of :func:`~seisblock.models.stack.solve.solve_stack`.
+    samples : Samples
+        Of the same pile, motion and options.
+    moved_m : float, m
+    """
+    factor = _run_factor(response, solve_stack, lambda run: run.overturned_any, stop_at_fall=True)
+    pile_result = ModelResult(PILE, response.outcome.overturned_any, factor)
+    comparison = compare_pile_models(response, pile_result)
+    results = (pile_result,) if comparison is None else comparison.opinions
+    until = stack_predictable_until(response)
+    return DirectionAssessment(samples, _assessment(samples, results, until, response.motion.name, moved_m), comparison, moved_m)
+
+
+def assess_rigid3d(response: Response[Rigid3dOutcome], samples: Samples, *, moved_m: float = MOVED_M) -> DirectionAssessment:
+    """Return the assessment of an object in three dimensions, beside the full response in the plane of either horizontal.
+
+    Parameters
+    ----------
+    response : Response
+        Of :func:`~seisblock.models.rigid3d.solve.solve_rigid3d`.
+    samples : Samples
+        Of the same body, motion and options.
+    moved_m : float, m
+    """
+    result = ModelResult(THREE_DIMENSIONS, response.outcome.overturned, _run_factor(response, solve_rigid3d, lambda run: run.overturned))
+    planar = _planar_result(response)
+    results = (result,) if planar is None else (result, planar)
+    until = rigid3d_predictable_until(response)
+    return DirectionAssessment(samples, _assessment(samples, results, until, response.motion.name, moved_m), None, moved_m)
+
+
+def _planar_result(response: Response[Rigid3dOutcome]) -> ModelResult | None:
+    """Return the full response of the object in the vertical planes of both horizontals; None without a result."""
+    solid, motion, options = convex_body(response.body), response.motion, response.options
+    low = float(solid.points[:, 2].min())
+    base = tuple((x, y) for x, y in solid.support_polygon.tolist())
+    centre = (*solid.centre[:2], solid.centre[2] - low)
+    standing = ScannedBody(solid.name, solid.mass, float(np.ptp(solid.points[:, 2])), centre, solid.inertia, base, facing=EAST)
+    rotated = (motion.transverse, -motion.horizontal, motion.vertical)
+    cases = [(standing.block_toward(EAST), motion)]
+    if options.across and motion.transverse.any():
+        cases.append((standing.block_toward(EAST - 90.0), Motion(rotated, motion.dt, motion.name, motion.start_s, motion.record)))
+    planar = RespondOptions(
+        mu=options.mu, restitution=options.restitution, vertical=options.vertical, gravity=options.gravity, settle_s=options.settle_s
+    )
+    results = [result for block, rows in cases if (result := _full_response(block, rows, planar)) is not None]
+    factors = [result.factor for result in results if result.factor is not None]
+    return ModelResult(FULL_RESPONSE, any(result.falls for result in results), min(factors, default=None)) if results else None
+
+
+def assess_object(parts: Sequence[DirectionAssessment]) -> Assessment:
+    """Return the assessment of an object under any of several directions of one record.
+
+    A sample, and a model, overturns if it does so in any direction; the factor of a model is the smallest of its directions. The
+    direction is the one of the largest overturning probability; among equal ones, that of the smallest factor to overturning.
+
+    Parameters
+    ----------
+    parts : sequence of DirectionAssessment
+        Of the same draws.
+    """
+    results: dict[str, ModelResult] = {}
+    for part in parts:
+        for model in part.assessment.models:
+            previous = results.get(model.name, ModelResult(model.name, False, None))
+            factors = [factor for factor in (previous.factor, model.factor_to_overturn) if factor is not None]
+            results[model.name] = ModelResult(model.name, previous.falls or model.overturns, min(factors, default=None))
+    untils = [part.assessment.predictable_until_s for part in parts if part.assessment.predictable_until_s is not None]
+    worst = max(parts, key=lambda part: _severity(part.assessment))
+    samples = join_directions([part.samples for part in parts])
+    return _assessment(samples, list(results.values()), min(untils, default=None), worst.assessment.direction, worst.moved_m)
+
+
+def _severity(assessment: Assessment) -> tuple[float, float, float]:
+    """Return the key that orders the directions of an object."""
+    factor = math.inf if assessment.least_factor is None else assessment.least_factor
+    return assessment.overturning_probability, assessment.moved_probability, -factor
+
+
+def assess_objects(parts: Iterable[tuple[Hashable, DirectionAssessment | None]]) -> list[Assessment | None]:
+    """Return the assessment of each object under its record in order, None for one with one direction or without samples.
+
+    Parameters
+    ----------
+    parts : iterable of (hashable, DirectionAssessment or None)
+        Each direction with a key of its object and record.
+    """
+    groups: dict[Hashable, list[DirectionAssessment]] = {}
+    for key, part in parts:
+        group = groups.setdefault(key, [])
+        if part is not None:
+            group.append(part)
+    return [assess_object(group) if len(group) > 1 else None for group in groups.values()]
+
+
+def _assessment(
+    samples: Samples, results: Sequence[ModelResult], predictable_until_s: float | None, direction: str, moved_m: float
+) -> Assessment:
+    factors = [result.factor for result in results if result.factor is not None]
+    moved = samples.moved_probability(moved_m)
+    return Assessment(
+        samples.probability,
+        samples.interval,
+        samples.completed,
+        moved,
+        tuple(ModelVerdict(result.model, result.falls, result.factor) for result in results),
+        min(factors, default=None),
+        max(factors, default=None),
+        predictable_until_s,
+        direction or "x",
+        classify(samples.probability, moved),
+    )
+
+
+def _full_response(block: Block, motion: Motion, options: RespondOptions) -> ModelResult | None:
+    """Return verdict and first overturning factor of the full response; None if the run itself has no result."""
+    unit = np.array([1.0, 0.0, vertical_gain(motion, options.vertical)])
+    params = respond_params(block, options)
+
+    def falls(factors: FloatArray) -> tuple[BoolArray, BoolArray]:
+        result = respond_many([params] * len(factors), motion, gains=factors[:, None] * unit, settle_s=options.settle_s)
+        return result.overturned & ~result.gave_up, result.gave_up
+
+    count = math.ceil(math.log(MAX_FACTOR / MIN_FACTOR) / math.log(FACTOR_STEP))
+    factors = np.append(MAX_FACTOR * FACTOR_STEP ** -np.arange(count, -1.0, -1.0), 1.0)
+    if not motion.horizontal.any():
+        return ModelResult(FULL_RESPONSE, False, None)
+    fallen, stopped = falls(factors)
+    if stopped[-1]:
+        return None
+    verdict, fallen = bool(fallen[-1]), fallen[:-1]
+    if not fallen.any():
+        return ModelResult(FULL_RESPONSE, verdict, 1.0 if verdict else None)
+    first = int(np.argmax(fallen))
+    if first == 0:
+        return ModelResult(FULL_RESPONSE, verdict, float(factors[0]))
+    fine = np.linspace(factors[first - 1], factors[first], REFINEMENT + 1)[1:]
+    return ModelResult(FULL_RESPONSE, verdict, float(fine[int(np.argmax(falls(fine)[0]))]))
+
+
+def _run_factor(
+    response: Response[Any], solve: Callable[..., Response[Any]], overturns: Callable[[Any], bool], **keywords: Any
+) -> float | None:
+    """Return the factor nearest to 1 at which an object begins to fall, to 3 %; None if it stands up to :data:`MAX_FACTOR`."""
+    motion, options = response.motion, replace(response.options, **keywords)
+
+    def falls(factor: float) -> bool:
+        scaled = Motion(factor * motion.acceleration, motion.dt, motion.name, motion.start_s, motion.record)
+        try:
+            return overturns(solve(response.body, scaled, **options.keywords()).outcome)
+        except SolverError:
+            return False
+
+    if not motion.acceleration.any():
+        return None
+    low = high = 1.0
+    if overturns(response.outcome):
+        while low > MIN_PILE_FACTOR and falls(low := low / PILE_STEP):
+            high = low
+    else:
+        while not falls(high := high * PILE_STEP):
+            low = high
+            if high >= MAX_FACTOR:
+                return None
+    for _ in range(PILE_BISECTIONS):
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if falls(middle) else (middle, high)
+    return high

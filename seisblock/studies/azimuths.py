@@ -65,7 +65,8 @@ def make_azimuth_sweep(
 ) -> AzimuthSweep:
     """Return the directions of a record: half a circle, or the full circle for an asymmetric block.
 
-    A scan keeps its orientation: towards the opposite azimuth it is the same block seen from behind.
+    A block stands with its width towards north, and its base is projected on each azimuth. A scan keeps its orientation: towards the
+    opposite azimuth it is the same block seen from behind.
 
     Parameters
     ----------
@@ -97,5 +98,5 @@ def make_azimuth_sweep(
     motion = motion_of(record, "0")
     turn = np.radians(azimuths)
     gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, vertical_gain(motion, vertical))])
-    blocks = tuple(body.block_toward(azimuth) if isinstance(body, ScannedBody) else body for azimuth in azimuths.tolist())
+    blocks = tuple(body.block_toward(azimuth) for azimuth in azimuths.tolist())
     return AzimuthSweep(azimuths, blocks, motion, gains)

@@ -13,7 +13,7 @@ from typing import Any
 from seisblock.core.registry import SolverBody, get_solver, solver_names
 from seisblock.records import Motion, Record
 from seisblock.studies.batch.directions import Worst, worst_respond, worst_rock, worst_slide
-from seisblock.studies.batch.probability import MOVED_COLUMNS, PROBABILITY_COLUMNS, respond_probability_columns, rock_probability_columns
+from seisblock.studies.batch.probability import PROBABILITY_COLUMNS, probability_columns
 from seisblock.studies.fragility.damage_states import LEAN, OVERTURN, ROCK, SLIP
 from seisblock.studies.fragility.runners import Runner, respond_end_states, rock_end_states, single_end_states, slide_end_states
 
@@ -34,7 +34,7 @@ class Capabilities:
         ``probability(solver_body, motion, runs, seed)``: the probability columns of a batch.
     probability_columns : mapping of str to type
     worst_azimuth : callable or None
-        Worst direction of a body under a record.
+        ``worst_azimuth(solver_body, record, runs, seed)``: worst direction of a body under a record.
     single_direction_options : tuple of str
         Options that an azimuth sweep does not support.
     """
@@ -44,7 +44,7 @@ class Capabilities:
     samples_in_rows: bool = False
     probability: Callable[[SolverBody, Motion, int, int], dict[str, Any]] | None = None
     probability_columns: Mapping[str, type] = field(default_factory=dict)
-    worst_azimuth: Callable[[SolverBody, Record], Worst] | None = None
+    worst_azimuth: Callable[[SolverBody, Record, int, int], Worst] | None = None
     single_direction_options: tuple[str, ...] = ()
 
 
@@ -53,13 +53,19 @@ _CAPABILITIES = {
         respond_end_states,
         (ROCK, LEAN, SLIP, OVERTURN),
         True,
-        respond_probability_columns,
-        MOVED_COLUMNS,
+        partial(probability_columns, solver="respond"),
+        PROBABILITY_COLUMNS,
         worst_respond,
         ("initial", "further_points", "sensitivity"),
     ),
     "rock": Capabilities(
-        rock_end_states, (ROCK, LEAN, OVERTURN), True, rock_probability_columns, PROBABILITY_COLUMNS, worst_rock, ("initial",)
+        rock_end_states,
+        (ROCK, LEAN, OVERTURN),
+        True,
+        partial(probability_columns, solver="rock"),
+        PROBABILITY_COLUMNS,
+        worst_rock,
+        ("initial",),
     ),
     "slide": Capabilities(slide_end_states, (SLIP,), worst_azimuth=worst_slide),
 }

@@ -20,13 +20,12 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.top_block import rigid_top
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
-from seisblock.core.errors import ParameterError, RecordFormatError
-from seisblock.core.io.checkpoint_lines import append_line, read_complete_lines
+from seisblock.core.errors import ParameterError
+from seisblock.core.io.checkpoint import Checkpoint
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.core.units import GAL, STANDARD_GRAVITY
 from seisblock.criteria.gravestones import GravestoneFit
-from seisblock.measures import ground_history
-from seisblock.measures.frequency import pga_pgv_frequency
+from seisblock.measures.summary import conventions_of, motion_peaks
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.models.stack.options import RIGID, SPRINGS
@@ -129,9 +128,9 @@ def criterion_study(
     Raises
     ------
     ParameterError
-        If a list is empty, or `resume` belongs to another study.
-    RecordFormatError
-        If `resume` cannot be read.
+        If a list is empty.
+    OutputError
+        If `resume` is no checkpoint, belongs to another study or cannot be written.
 
     Examples
     --------
@@ -149,7 +148,12 @@ def criterion_study(
     # the digest identifies pile and settings, so that a file of another study is rejected
     settings = [asdict(body), sorted_ratios, points, RIGID if contact is None else asdict(contact), gravity, duration]
     digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()[:16]
-    finished = _read_finished(resume, digest)
+    finished: dict[tuple[float, float], Threshold] = {}
+    checkpoint = None if resume is None else Checkpoint.open(resume, {"seisblock": "criterion study", "of": digest})
+    if checkpoint is not None:
+        for row in (row for key in checkpoint.places for row in checkpoint.rows(key)):
+            cell = (row["frequency_hz"], row["pga_m_s2"])
+            finished[cell] = Threshold(*cell, row["ratio"], tuple(row["fallen"]))
     missing = [cell for cell in cells if cell not in finished]
 
     def work(cell: tuple[float, float]) -> Threshold:
@@ -159,8 +163,8 @@ def criterion_study(
 
     for count, threshold in enumerate(map_threads(work, missing, workers=workers), start=1):
         finished[threshold.frequency_hz, threshold.pga_m_s2] = threshold
-        if resume is not None:
-            append_line(resume, json.dumps({"study": digest, **asdict(threshold)}))
+        if checkpoint is not None:
+            checkpoint.append((repr(threshold.frequency_hz), repr(threshold.pga_m_s2)), [asdict(threshold)])
         if progress is not None:
             progress(len(cells) - len(missing) + count, len(cells))
     thresholds = tuple(finished[cell] for cell in cells)
@@ -201,24 +205,6 @@ def fit_criterion(levels: dict[float, float]) -> GravestoneFit | None:
     return GravestoneFit(p, q, r, "least squares")
 
 
-def _read_finished(path: Path | None, digest: str) -> dict[tuple[float, float], Threshold]:
-    """Return the finished sines of an earlier run."""
-    finished: dict[tuple[float, float], Threshold] = {}
-    for number, line in enumerate([] if path is None else read_complete_lines(path, '{"study": "'), start=1):
-        try:
-            entry = json.loads(line)
-            study, cell = entry.pop("study"), (float(entry["frequency_hz"]), float(entry["pga_m_s2"]))
-            threshold = Threshold(*cell, entry["ratio"], tuple(entry["fallen"]))
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise RecordFormatError(
-                "{path}, line {number}: not a line of a criterion study; give another file", path=path, number=number
-            ) from error
-        if study != digest:
-            raise ParameterError("{path} belongs to a study of another pile or other settings; give another file", path=path)
-        finished[cell] = threshold
-    return finished
-
-
 def record_thresholds(
     body: Pile,
     motion: Motion,
@@ -240,8 +226,7 @@ def record_thresholds(
     ParameterError
         If the motion has no acceleration along +x.
     """
-    peak = float(np.abs(motion.horizontal).max())
-    frequency = pga_pgv_frequency(peak, float(np.abs(ground_history(motion.horizontal, motion.dt).velocity).max()))
+    peak, _, frequency = motion_peaks(motion.horizontal, motion.dt, conventions_of(motion.record))
     if frequency is None:
         raise ParameterError("the motion has no acceleration along its component and cannot be scaled; choose another component")
 

@@ -7,6 +7,7 @@ long per call.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
@@ -41,6 +42,49 @@ def clopper_pearson(count: int, runs: int, confidence: float = CONFIDENCE) -> tu
     tail = (1.0 - _check_counts(count, runs, confidence)) / 2.0
     low = float(betaincinv(count, runs - count + 1, tail)) if count else 0.0
     high = float(betaincinv(count + 1, runs - count, 1.0 - tail)) if count < runs else 1.0
+    return low, high
+
+
+def clustered_interval(counts: Sequence[int], runs: Sequence[int], confidence: float = CONFIDENCE) -> tuple[float, float]:
+    """Return the binomial interval of a share of runs that come in groups, such as several versions under each record.
+
+    The exact interval for the effective number of runs, the variance of a binomial share over that between the groups
+    ([KornGraubard1998]_ method); with shares of 0 and 1 each group counts at most once.
+
+    Parameters
+    ----------
+    counts, runs : sequences of int
+        Of each group; groups without runs are left out.
+    confidence : float, 1
+
+    Raises
+    ------
+    ParameterError
+        If there is no run, or the level is out of range.
+
+    Examples
+    --------
+    >>> low, high = clustered_interval([0, 4, 0, 4, 0, 4, 0, 4, 4, 4], [4] * 10)
+    >>> round(low, 3), round(high, 3)
+    (0.208, 0.913)
+    """
+    from scipy.special import betaincinv, stdtrit
+
+    total, groups = sum(runs), sum(run > 0 for run in runs)
+    count = sum(counts)
+    tail = (1.0 - _check_counts(count, total, confidence)) / 2.0
+    share = count / total
+    # ratio estimator: groups may differ in size when runs were stopped
+    squares = sum((k - share * n) ** 2 for k, n in zip(counts, runs, strict=True))
+    variance = squares / total**2 * groups / max(groups - 1, 1)
+    effective = float(groups)
+    if 0 < count < total and variance > 0.0 and groups > 1:
+        effective = share * (1.0 - share) / variance
+        effective *= (float(stdtrit(total - 1, tail)) / float(stdtrit(groups - 1, tail))) ** 2
+    effective = min(max(effective, 1.0), float(total))
+    x = share * effective
+    low = float(betaincinv(x, effective - x + 1.0, tail)) if count else 0.0
+    high = float(betaincinv(x + 1.0, effective - x, 1.0 - tail)) if count < total else 1.0
     return low, high
 
 

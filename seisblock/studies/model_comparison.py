@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import wear_within
-from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
 from seisblock.bodies.edge_wear import DEFAULT_WEAR, SHARP_EDGES
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.top_block import rigid_top
+from seisblock.bodies.table import PAPER_WIDTH
 from seisblock.core.i18n import N_
 from seisblock.core.results import Response
 from seisblock.criteria.gravestones import DOWELLED, FITTED_RATIO, PLAIN, GravestoneFit, overturning_pga
@@ -193,8 +193,10 @@ def _closed_forms(block: Block, stone: Block, motion: Motion, pga: float, fit: G
     return results
 
 
-def compare_pile_models(response: Response[StackOutcome]) -> ModelComparison | None:
+def compare_pile_models(response: Response[StackOutcome], own: ModelResult | None = None) -> ModelComparison | None:
     """Return the results of the models of a pile's top stone beside the pile itself, None for a fixed top stone ([Furukawa2009]_).
+
+    `own` is the result of the pile; by default its verdict on the top stone, without a factor.
 
     The top stone, with those dowelled to it, is one block with its nominal edges. The gravestone criterion applies to a sao, that of
     dowelled stones to one with a dowel.
@@ -204,7 +206,7 @@ def compare_pile_models(response: Response[StackOutcome]) -> ModelComparison | N
         return None
     top, dowelled = pile.stones[-1], any(pile.names[-1] in group for group in pile.dowels)
     fit = (DOWELLED if dowelled else PLAIN) if top.name == SAO else None
-    pile_result = ModelResult(PILE, top.name in response.outcome.overturned, None)
+    pile_result = own or ModelResult(PILE, top.name in response.outcome.overturned, None)
     block, stone = rigid_top(pile, 2), Block(top.width, top.height)
     options = RockOptions(vertical=response.options.vertical, gravity=response.options.gravity)
     return compare_models(block, response.motion, stone=stone, fit=fit, extra_results=[pile_result], options=options)

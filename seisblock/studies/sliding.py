@@ -202,9 +202,9 @@ def _run_all(
 ) -> Iterator[SlidePoint]:
     """Yield the points of the rows of each motion, motion by motion, row by row; computed in threads."""
     jobs = []
-    for motion, own in zip(motions, rows, strict=True):
-        share = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(len(own) / workers)))
-        jobs += [(motion, own[first : first + share]) for first in range(0, len(own), share)]
+    for motion, motion_rows in zip(motions, rows, strict=True):
+        share = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(len(motion_rows) / workers)))
+        jobs += [(motion, motion_rows[first : first + share]) for first in range(0, len(motion_rows), share)]
     total = sum(map(len, rows))
     points: list[SlidePoint] = []
     for batch in map_threads(lambda job: _points(*job, gravity), jobs, workers=workers):
@@ -244,7 +244,7 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
             SlidePoint(
                 motion.name,
                 base.mu,
-                base.kinetic,
+                float(f"{base.kinetic:.15g}"),
                 base.kappa,
                 base.slope_deg,
                 scale,

@@ -17,11 +17,13 @@ PAPERS: tuple[str, ...] = (
     "furukawa_rocking",
     "furukawa",
     "furukawa_field",
+    "edge_wear",
     "furukawa_pile",
     "furukawa_dowel",
     "stack_steps",
     "stack_round",
     "fema_p58",
+    "jma_furniture",
 )
 """Modules of this package that export CASES."""
 

@@ -22,6 +22,9 @@ CONVERGED = 1e-8
 REPRODUCIBLE = 1e-6
 """Relative tolerance of a difference that is reproducible on every machine."""
 
+UNKNOWN = "cause unknown"
+"""Note of a difference without a shown cause."""
+
 Verdict = Literal["holds", "differs", "fails"]
 
 VERDICTS: tuple[Verdict, ...] = ("fails", "differs", "holds")

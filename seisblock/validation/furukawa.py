@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.core.units import GAL
+from seisblock.core.i18n import N_
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import GAL, KINE
 from seisblock.criteria.gravestones import (
     BORDERLINE_TOLERANCE,
     DOWELLED,
@@ -24,9 +27,55 @@ from seisblock.criteria.gravestones import (
     overturning_ratio,
     predict,
 )
+from seisblock.criteria.overturning import housner_acceleration_as_printed
 from seisblock.studies.survey.overturning_rate import overturning_rate
 from seisblock.validation.case import Case, expected_difference
-from seisblock.validation.furukawa_surveys import SURVEYS, SurveyedRate
+
+
+@dataclass(frozen=True)
+class SurveyedRate:
+    """One row of table 6; digits lost in the scan follow from f = PGA/(2 pi PGV).
+
+    Parameters
+    ----------
+    name : str
+    pga_gal, pgv_kine, printed_frequency_hz : float
+        As printed; fig. 18 repeats the frequency.
+    rate : float
+        Surveyed around the station.
+    estimate, estimate_reinforced : float or None
+        Read by the authors from figs. 16 and 17; None if illegible in the scan.
+    """
+
+    name: str
+    pga_gal: float
+    pgv_kine: float
+    printed_frequency_hz: float
+    rate: float
+    estimate: float | None
+    estimate_reinforced: float | None
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration, m/s^2."""
+        return self.pga_gal * GAL
+
+    @property
+    def frequency(self) -> float:
+        """Equivalent frequency PGA/(2 pi PGV), Hz ([Furukawa2009]_ section 3(5)e)."""
+        return self.pga_gal * GAL / (2.0 * math.pi * self.pgv_kine * KINE)
+
+
+SURVEYS = (
+    SurveyedRate(N_("Hakuta"), 720, 36, 3.18, 0.05, 0.10, 0.02),
+    SurveyedRate(N_("Kofu"), 725, 42, 2.75, 0.30, 0.35, 0.08),
+    SurveyedRate(N_("Yonago"), 280, 27, 1.65, 0.07, 0.10, 0.04),
+    SurveyedRate(N_("Nichinan"), 629, 36, 2.78, 0.40, 0.20, 0.05),
+    SurveyedRate(N_("Hino"), 927, 113, 1.31, 0.90, 1.0, None),
+    SurveyedRate(N_("Sakaiminato"), 213, 90, 0.38, 0.36, None, None),
+)
+"""Rows of table 6 in printed order. The estimates of the last row, 0.05 and 0, contradict the other rows and are omitted."""
+
 
 GRAVITY_GAL = 980.0
 """Gravity in the paper, gal."""
@@ -34,7 +83,7 @@ GRAVITY_GAL = 980.0
 RATIO = 2.6
 """H/B of the stone on the shaking table ([Furukawa2009]_ table 5)."""
 
-LEVELS = ("6-lower", "6-upper", "7")
+LEVELS = (N_("6-lower"), N_("6-upper"), "7")
 
 # table 4: direction -> PGA (gal), PGV (kine), printed f (Hz) at each level
 TABLE_4 = {
@@ -57,7 +106,12 @@ TABLE_5C = ((STABLE, OVERTURNS, OVERTURNS), (STABLE, STABLE, OVERTURNS))
 """Observed results on the shaking table ([Furukawa2009]_ table 5(c)): rows without and with a dowel."""
 
 # table 3: record -> PGA/(2 pi PGV), Fourier, pulse width, Hz
-TABLE_3 = {"Kobe": (1.55, 1.48, 1.32), "Tokachi": (4.40, 4.84, 4.55), "Chuetsu": (1.93, 0.46, 1.56), "Fukuoka": (1.73, 0.93, 1.39)}
+TABLE_3 = {
+    N_("Kobe"): (1.55, 1.48, 1.32),
+    N_("Tokachi"): (4.40, 4.84, 4.55),
+    N_("Chuetsu"): (1.93, 0.46, 1.56),
+    N_("Fukuoka"): (1.73, 0.93, 1.39),
+}
 
 ONE_DIGIT = "probable misprint in p: 1162.9 gal as printed, but both verdicts on the dowelled stone at 6-upper require 1342 to 1409 gal; 1362.9 fits"
 
@@ -86,6 +140,15 @@ def _criterion() -> Iterator[Case]:
         0.0, lambda: float(sum(100.0 * float(overturning_level(f)) < GRAVITY_GAL for f in (0.5, 1.0, 1.5))),
     )  # fmt: skip
     yield Case(
+        "furukawa-fig8", "[Furukawa2009]_ fig. 8", "number of frequencies (of six) with Housner's criterion above eq. (9), H/B 2.6", "1", 6.0, 0.0,
+        lambda: float(np.count_nonzero(_housner_ratios() > 1.0)), note="eq. (6) as printed, width 242 mm",
+    )  # fmt: skip
+    yield Case(
+        "furukawa-fig8-growth", "[Furukawa2009]_ fig. 8", "number of steps of frequency (of five) over which the two move apart, H/B 2.6", "1", 5.0,
+        0.0, lambda: float(np.count_nonzero(np.diff(_housner_ratios()) > 0.0)), status="differs", today=expected_difference(2.0),
+        note="their ratio is largest at 1.5 Hz, 1.72, and 1.15 at 3 Hz: eq. (9) rises with the power 2.3 of the frequency, eq. (6) linearly",
+    )  # fmt: skip
+    yield Case(
         "furukawa-table-3-choice", "[Furukawa2009]_ table 3, section 3(5)e", "records except Tokachi for which PGA/(2 pi PGV) is closest to 2 Hz", "1",
         3.0, 0.0, _nearest, kind="print", note="from the printed frequencies; the records cannot be redistributed",
     )  # fmt: skip
@@ -93,6 +156,14 @@ def _criterion() -> Iterator[Case]:
         "furukawa-table-3-tokachi", "[Furukawa2009]_ section 3(5)e", "mean of the three frequencies of Tokachi, printed as about 4.5 Hz", "Hz", 4.5, 0.11,
         lambda: float(np.mean(TABLE_3["Tokachi"])), kind="print", note="from the printed frequencies",
     )  # fmt: skip
+
+
+def _housner_ratios() -> FloatArray:
+    """Return eq. (6) as printed over eq. (9) at 0.5 to 3 Hz, (6,), sao of 242 mm and H/B 2.6."""
+    width, frequencies = 0.242, (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
+    return np.array(
+        [housner_acceleration_as_printed(width, RATIO * width, f, GRAVITY_GAL * GAL) * RATIO / overturning_level(f) for f in frequencies]
+    )
 
 
 def _largest_change() -> float:

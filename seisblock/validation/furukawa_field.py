@@ -22,7 +22,7 @@ from seisblock.studies.survey.limits import rigid_limits
 from seisblock.studies.survey.overturning_rate import overturning_rate
 from seisblock.studies.survey.simulation import simulated_overturns, sine_motion
 from seisblock.validation.case import Case
-from seisblock.validation.furukawa_surveys import SURVEYS, SurveyedRate
+from seisblock.validation.furukawa import SURVEYS, SurveyedRate
 
 CHAOS_TOLERANCE = 0.02
 """Change of rms or bias with another step or another g."""

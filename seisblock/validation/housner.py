@@ -12,6 +12,7 @@ from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.criteria.overturning import housner_acceleration, housner_acceleration_as_printed
 from seisblock.criteria.pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
 from seisblock.models.rock.options import RockOptions
+from seisblock.models.rock.outcome import RockEvent
 from seisblock.models.rock.solve import solve_rock
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
@@ -53,7 +54,7 @@ def free_period(share: float) -> float:
     # without loss every second impact completes a period
     ground = Motion.from_arrays(np.zeros(2001), 0.01)
     response = solve_rock(from_slenderness(ALPHA, P), ground, restitution=1.0, linear=True, initial=(share * ALPHA, 0.0))
-    times = [event.time_s for event in response.events if event.name == "impact"]
+    times = [event.time_s for event in response.events if event.name == RockEvent.IMPACT]
     return times[2] - times[0]
 
 

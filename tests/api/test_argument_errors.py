@@ -64,7 +64,7 @@ OF_BODIES = {
     "estimate_shaking": (lambda body: sb.survey.estimate_shaking(body, 2.75), "Survey"),
     "contact of solve_jump": (lambda body: sb.solve_jump(LAYERS, MOTION, contact=body), "Contact"),
     "contact of solve_stack": (lambda body: sb.solve_stack(PILE, MOTION, contact=body), "PileContact"),
-    "spread of perturb": (lambda body: sb.uncertainty.perturb(BLOCK, MOTION, 2, spread=body), "Spread"),
+    "spread of perturb": (lambda body: sb.uncertainty.perturb(BLOCK, MOTION, 2, spread=body), "ParameterVariation"),
     "blocks of jump_many": (lambda body: sb.models.jump_many([body], MOTION, contacts=[sb.load_contact("chozusha")]), "TwoLayerBlock"),
     "contacts of jump_many": (lambda body: sb.models.jump_many([LAYERS], MOTION, contacts=[body]), "Contact"),
     "bodies of uplift_many": (lambda body: sb.models.uplift_many([body], MOTION), "SpringBlock"),
@@ -77,28 +77,28 @@ def test_studies_require_a_motion(name):
     """A record holds several components and an array no time step: each study says so as the solvers do."""
     with pytest.raises(sb.errors.KindError, match=r"found a Record .*: select a component with motion_of\(record, 'NS'\)"):
         OF_MOTIONS[name](RECORD)
-    for wrong in (np.zeros(100), "record.csv", None):
+    for invalid in (np.zeros(100), "record.csv", None):
         with pytest.raises(sb.errors.KindError, match=r"expected a Motion, found (ndarray|str|None)"):
-            OF_MOTIONS[name](wrong)
+            OF_MOTIONS[name](invalid)
 
 
 @pytest.mark.parametrize("name", OF_RECORDS)
 def test_record_functions_require_a_record(name):
-    """What works on records names what it found in its place."""
-    for wrong in (MOTION, "record.csv", None):
+    """Functions of records name the type that was passed instead."""
+    for invalid in (MOTION, "record.csv", None):
         with pytest.raises(sb.errors.KindError, match=r"(a|expected) Record( is needed)?, found (Motion|str|None)"):
-            OF_RECORDS[name](wrong)
+            OF_RECORDS[name](invalid)
 
 
 @pytest.mark.parametrize("name", OF_BODIES)
 def test_functions_require_a_body(name):
     """So does what needs a body, a survey, or a contact; a motion in its place is such a thing, too."""
     call, kind = OF_BODIES[name]
-    for wrong in (MOTION, 0.3, "gravestone"):
+    for invalid in (MOTION, 0.3, "gravestone"):
         with pytest.raises(
             sb.errors.KindError, match=rf"(a|expected) {kind}( is needed)?, found (Motion|float|str)|expected the body first"
         ):
-            call(wrong)
+            call(invalid)
 
 
 @pytest.mark.parametrize(
@@ -188,9 +188,9 @@ def test_vertical_has_same_meaning_everywhere(name):
     solve = VERTICAL[name]
     flat = sb.Record(tuple(RECORD.horizontals), RECORD.dt, source="level.csv")
     level = sb.motion_of(sb.records.crop(flat, 24.0, 24.5), "EW")
-    for asked in (True, 0.5):
+    for flag in (True, 0.5):
         with pytest.raises(sb.errors.ComponentError, match=r"level.csv: no vertical component \(components: NS, EW\)"):
-            solve(level, asked)
+            solve(level, flag)
     assert outcome_text(solve(level, None)) == outcome_text(solve(level, False))
     shaken = sb.motion_of(sb.records.crop(RECORD, 24.0, 24.5), "EW")
     assert outcome_text(solve(shaken, None)) == outcome_text(solve(shaken, True)) == outcome_text(solve(shaken, 1.0))
@@ -216,12 +216,12 @@ def outcome_text(answer):
 )
 def test_response_survives_pickling(answer):
     """Pickled, a response brings its outcome and its curves along, and shows itself as before; so does its copy's copy."""
-    given = answer()
-    came = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(given))))
-    assert came.outcome == given.outcome
-    assert [event.time_s for event in came.events] == [event.time_s for event in given.events]
-    np.testing.assert_array_equal(came.time, given.time)
-    assert [channel.name for channel in came.channels] == [channel.name for channel in given.channels]
-    for one, other in zip(came.channels, given.channels, strict=True):
-        np.testing.assert_array_equal(one.values, other.values)
-    assert came.summary() == given.summary()
+    content = answer()
+    came = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(content))))
+    assert came.outcome == content.outcome
+    assert [event.time_s for event in came.events] == [event.time_s for event in content.events]
+    np.testing.assert_array_equal(came.time, content.time)
+    assert [channel.name for channel in came.channels] == [channel.name for channel in content.channels]
+    for first, second in zip(came.channels, content.channels, strict=True):
+        np.testing.assert_array_equal(first.values, second.values)
+    assert came.summary() == content.summary()

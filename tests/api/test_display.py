@@ -60,7 +60,7 @@ def test_values_are_shown_in_ten_lines_and_as_html(name):
 
 def test_exact_repr_differs_where_the_short_one_does_not():
     """Keys and digests see every sample."""
-    one = sb.Record.from_arrays({"NS": np.zeros(1000)}, 0.01)
-    other = sb.Record.from_arrays({"NS": np.eye(1, 1000, 500)[0]}, 0.01)
-    assert repr(one) == repr(other)
-    assert exact_repr(one) != exact_repr(other)
+    first = sb.Record.from_arrays({"NS": np.zeros(1000)}, 0.01)
+    second = sb.Record.from_arrays({"NS": np.eye(1, 1000, 500)[0]}, 0.01)
+    assert repr(first) == repr(second)
+    assert exact_repr(first) != exact_repr(second)

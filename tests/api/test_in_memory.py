@@ -51,7 +51,7 @@ def test_record_from_arrays_rejects_unusable_arrays(components, message):
         ),
         (
             ["jump", "--block", "chozusha"],
-            lambda motion: sb.solve_jump(sb.load_two_layer("chozusha"), motion, contact=sb.load_contact("chozusha")),
+            lambda motion: sb.solve_jump(sb.load_two_layer("chozusha"), motion, contact=sb.load_contact("chozusha"), drop=0.3, tenon=0.02),
         ),
     ],
 )

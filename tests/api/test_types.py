@@ -1,4 +1,4 @@
-"""What a stranger's editor sees: every public name has its true type, and a misspelt one is refused."""
+"""Types of the public names as an editor shows them; misspelt names are rejected."""
 
 import ast
 import re
@@ -31,7 +31,7 @@ reveal_type(seisblock.solve_rock(gravestone, motion).outcome.overturning_time_s)
 reveal_type(seisblock.solve_jump(pavilion, motion, contact=seisblock.load_contact("chozusha")))  # Response[JumpOutcome]
 reveal_type(seisblock.solve_stack(seisblock.load_pile("wagata"), motion).outcome.overturned)  # tuple[str, ...]
 reveal_type(seisblock.studies.find_margin(gravestone, motion).nearest_flip)  # float | None
-reveal_type(seisblock.uncertainty.perturb(gravestone, motion, 20, spread=seisblock.uncertainty.Spread()).probability)  # float
+reveal_type(seisblock.uncertainty.perturb(gravestone, motion, 20, spread=seisblock.uncertainty.ParameterVariation()).probability)  # float
 reveal_type(seisblock.criteria.overturning_card)  # def (block: Block
 reveal_type(seisblock.core.errors.SolverError)  # def (
 try:
@@ -40,7 +40,7 @@ except seisblock.errors.RecordNotFoundError as found:
     reveal_type(found)  # RecordNotFoundError
 """
 
-WRONG = {
+INVALID = {
     "seisblock.solve_rok(Block(0.2, 0.6), motion)": 'has no attribute "solve_rok"',
     "seisblock.solve_rock(motion, Block(0.2, 0.6))": "incompatible type",
     "seisblock.solve_rock(Block(0.2, 0.6), seisblock.read('a.csv'))": "incompatible type",
@@ -55,10 +55,10 @@ HEAD = "import seisblock\nfrom seisblock import Block, Motion\nmotion = Motion.f
 
 @pytest.fixture(scope="module")
 def mypy_output(tmp_path_factory):
-    """What mypy --strict says of a right script and of one line after another that is wrong, by script and line."""
+    """Output of mypy --strict for a correct script and for one with a wrong line each, by script and line."""
     folder = tmp_path_factory.mktemp("user")
     (folder / "right.py").write_text(SCRIPT, encoding="utf-8")
-    (folder / "wrong.py").write_text(HEAD + "\n".join(WRONG) + "\n", encoding="utf-8")
+    (folder / "wrong.py").write_text(HEAD + "\n".join(INVALID) + "\n", encoding="utf-8")
     # the package as one that is installed: its own modules are read, not judged
     command = [
         sys.executable,
@@ -74,21 +74,21 @@ def mypy_output(tmp_path_factory):
     paths = {"MYPYPATH": str(ROOT), "PATH": "", "MYPY_CACHE_DIR": str(ROOT / ".mypy_cache" / "stranger")}
     answer = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=paths, check=False)
     assert not answer.stderr, answer.stderr
-    found = {}
+    result = {}
     for script, line, text in re.findall(r"^(\w+)\.py:(\d+): (.*)$", answer.stdout, re.MULTILINE):
-        found.setdefault((script, int(line)), []).append(text)
-    return found
+        result.setdefault((script, int(line)), []).append(text)
+    return result
 
 
 @pytest.mark.slow
 def test_correct_script_passes_mypy(mypy_output):
     """Nothing is refused, and no public name is Any."""
     lines = SCRIPT.splitlines()
-    asked = {number: line.rpartition("  # ")[2] for number, line in enumerate(lines, 1) if "reveal_type" in line}
-    said = {line: texts for (script, line), texts in mypy_output.items() if script == "right"}
-    assert set(said) == set(asked), [texts for line, texts in said.items() if line not in asked]
-    for number, kind in asked.items():
-        (text,) = said[number]
+    expected_types = {number: line.rpartition("  # ")[2] for number, line in enumerate(lines, 1) if "reveal_type" in line}
+    mapping = {line: texts for (script, line), texts in mypy_output.items() if script == "right"}
+    assert set(mapping) == set(expected_types), [texts for line, texts in mapping.items() if line not in expected_types]
+    for number, kind in expected_types.items():
+        (text,) = mapping[number]
         plain = re.sub(r"\b(seisblock|numpy|builtins)\.[\w.]*?(?=\w+\b(?!\.))", "", text)
         assert kind in plain, (lines[number - 1], plain)
 
@@ -97,13 +97,13 @@ def test_correct_script_passes_mypy(mypy_output):
 def test_mypy_rejects_wrong_names_and_types(mypy_output):
     """A misspelt name, option or field, the wrong order and a record for a motion are found before the script runs."""
     first = HEAD.count("\n") + 1
-    for number, (line, expected) in enumerate(WRONG.items(), first):
+    for number, (line, expected) in enumerate(INVALID.items(), first):
         assert any(expected in text for text in mypy_output.get(("wrong", number), [])), (line, mypy_output.get(("wrong", number)))
 
 
 @pytest.mark.parametrize("stub", STUBS, ids=lambda path: path.parent.relative_to(ROOT).as_posix())
 def test_stubs_match_the_package(stub):
-    """What a stub promises can be imported, is listed once in its order, and is what the package lists."""
+    """Names of a stub can be imported, are listed once in order, and equal those of the package."""
     tree = ast.parse(stub.read_text(encoding="utf-8"))
     names = [alias.name for node in tree.body if isinstance(node, ast.ImportFrom) for alias in node.names]
     listed = next(ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign))

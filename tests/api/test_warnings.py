@@ -1,4 +1,4 @@
-"""What a program gives in another unit is remarked, as the command line refuses or doubts it; the house does not warn of itself."""
+"""Warnings of values in another unit reach callers outside the package, as the command line rejects or flags them."""
 
 import subprocess
 import sys
@@ -34,9 +34,9 @@ STRONG = sb.Record((sb.records.Component("NS", 400.0 * SINE), sb.records.Compone
 )
 def test_suspicious_unit_warns_at_callers_line(call, says):
     """One warning of one sentence, at the caller's line; the answer is given, for a house may be meant."""
-    with pytest.warns(UserWarning, match=says) as told:
+    with pytest.warns(UserWarning, match=says) as text:
         assert call() is not None
-    assert [entry.filename for entry in told] == [__file__]
+    assert [entry.filename for entry in text] == [__file__]
 
 
 def call_without_warnings(call):

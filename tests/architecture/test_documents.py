@@ -1,4 +1,4 @@
-"""What the documents for developers say is so: versions agree, floors are the contract's, files that they name exist."""
+"""Pages for developers are true: versions agree, lower bounds are those of the package, named files exist."""
 
 import os
 import re
@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import seisblock
+from seisblock.bodies.friction import SURFACES
 from seisblock.cli import COMMANDS
 from tests.public_names import PUBLIC, PUBLIC_PACKAGES
 
@@ -39,14 +40,14 @@ def test_conda_recipe_matches_project():
     recipe = (ROOT / "docs" / "developers" / "release.md").read_text(encoding="utf-8")
     project = PROJECT["project"]
     run = re.search(r"^  run:\n((?:    - .+\n)+)", recipe, re.M)[1]
-    needed = {line.removeprefix("    - ").replace("matplotlib-base", "matplotlib").replace(" ", "") for line in run.splitlines()}
-    assert needed == {f"python{project['requires-python']}", *project["dependencies"]}
+    required = {line.removeprefix("    - ").replace("matplotlib-base", "matplotlib").replace(" ", "") for line in run.splitlines()}
+    assert required == {f"python{project['requires-python']}", *project["dependencies"]}
     assert re.search(r'set version = "(.+)"', recipe)[1] == seisblock.__version__
     assert f"seisblock = {project['scripts']['seisblock']}" in recipe
 
 
 def test_source_archive_contains_all_top_level_files():
-    """What git keeps at the top of the repository is in the source archive, so that the tests pass from there too."""
+    """The source archive contains every tracked file of the top level, so that the tests pass from it."""
     included = set(PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"])
     looked_for = set(re.findall(r'ROOT / "([\w.-]+)"', Path(__file__).read_text(encoding="utf-8"))) - {"pyproject.toml"}
     assert looked_for | {"tests", "sample_records", ".ci", "hatch_build.py"} <= included
@@ -72,7 +73,7 @@ def test_benchmarks_can_be_measured_alone():
     words = re.search(r"python -m (pytest tests/benchmarks \S+)", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))[1].split()
     words[1] = "tests/benchmarks/test_animation_speed.py"
     env = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
-    found = subprocess.run(
+    result = subprocess.run(
         [sys.executable, "-m", *words, "--collect-only", "-p", "no:cacheprovider"],
         cwd=ROOT,
         env=env,
@@ -80,26 +81,26 @@ def test_benchmarks_can_be_measured_alone():
         text=True,
         check=False,
     )
-    assert found.returncode == 0, found.stdout + found.stderr
+    assert result.returncode == 0, result.stdout + result.stderr
 
 
 def test_ci_runs_suite_and_slow_tests():
     """The one definition of green runs the suite as the README says, and what is marked slow after it."""
     readme, definition = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", ".ci/run"))
-    told = re.search(r"python -m (pytest .+)", readme)[1]
+    text = re.search(r"python -m (pytest .+)", readme)[1]
     run = re.findall(r"-m (pytest -n 2 --benchmark-disable.*?)(?: --durations.*)?$", definition, re.M)
-    assert run == [told, f"{told} -m slow"]
+    assert run == [text, f"{text} -m slow"]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_paths_in_pages_exist(page):
     """Every path in a page leads to a file or folder of the repository."""
-    named = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|\w+\.(?:py|md|toml|pyi|cff))`", page.read_text(encoding="utf-8")))
-    named -= {name for name in named if any(word in name for word in PLACEHOLDERS)}
+    text = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|\w+\.(?:py|md|toml|pyi|cff))`", page.read_text(encoding="utf-8")))
+    text -= {name for name in text if any(word in name for word in PLACEHOLDERS)} | set(SURFACES)
     folders = ("seisblock", "tests", "docs", "sample_records", ".ci", ".github")
     paths = [*ROOT.glob("*"), *(path for folder in folders for path in (ROOT / folder).rglob("*"))]
-    there = ["/" + path.relative_to(ROOT).as_posix() + "/" * path.is_dir() for path in paths]
-    assert sorted(name for name in named if name != "utils.py" and not any(path.endswith("/" + name) for path in there)) == []
+    second = ["/" + path.relative_to(ROOT).as_posix() + "/" * path.is_dir() for path in paths]
+    assert sorted(name for name in text if name != "utils.py" and not any(path.endswith("/" + name) for path in second)) == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -112,11 +113,11 @@ def test_links_in_pages_exist(page):
 def test_drawings_equal_script_output():
     """The drawings were made by the scripts beside them as they stand."""
     folder = ROOT / "docs" / "figures"
-    drawn = {name: runpy.run_path(str(folder / f"{name}.py")) for name in ("draw", "models")}
-    made = [(name, drawn["draw"][name]) for name in ("architecture", "conventions")]
-    made += [(draw.__name__, draw) for draw in drawn["models"]["DRAWN"]]
-    assert sorted(name for name, _ in made) == sorted(path.stem for path in folder.glob("*.svg"))
-    for name, draw in made:
+    target = {name: runpy.run_path(str(folder / f"{name}.py")) for name in ("draw", "models")}
+    items = [(name, target["draw"][name]) for name in ("architecture", "conventions")]
+    items += [(draw.__name__, draw) for draw in target["models"]["DRAWN"]]
+    assert sorted(name for name, _ in items) == sorted(path.stem for path in folder.glob("*.svg"))
+    for name, draw in items:
         assert (folder / f"{name}.svg").read_text(encoding="utf-8") == draw(), name
 
 
@@ -144,8 +145,8 @@ def test_tables_of_contents_list_every_page():
 def test_commands_named_in_pages_exist():
     """Commands that the pages name are commands."""
     pages = [page for page in PAGES if "```python\n# seisblock/" not in page.read_text(encoding="utf-8")]
-    said = {name for page in pages for name in re.findall(r"`seisblock ([a-z][a-z-]*)", page.read_text(encoding="utf-8"))}
-    assert said <= set(COMMANDS)
+    text = {name for page in pages for name in re.findall(r"`seisblock ([a-z][a-z0-9-]*)", page.read_text(encoding="utf-8"))}
+    assert text <= set(COMMANDS)
 
 
 def test_glossary_names_modules_that_exist_and_both_languages():

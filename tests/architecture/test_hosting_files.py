@@ -41,9 +41,9 @@ def test_workflow_tests_the_declared_python_versions_on_three_systems():
 
 def test_placeholders_of_the_owner_are_the_listed_ones():
     """No address is invented: what only the owner can fill in is a placeholder, and the release page lists each."""
-    found = {match for path in FILES for match in PLACEHOLDER.findall(path.read_text(encoding="utf-8"))}
+    result = {match for path in FILES for match in PLACEHOLDER.findall(path.read_text(encoding="utf-8"))}
     page = (ROOT / "docs" / "developers" / "release.md").read_text(encoding="utf-8")
-    assert found == set(PLACEHOLDER.findall(page)) != set()
+    assert result == set(PLACEHOLDER.findall(page)) != set()
 
 
 def test_metadata_agrees_with_the_package():

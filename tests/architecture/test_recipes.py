@@ -31,9 +31,9 @@ def run(tmp_path_factory):
     def run(*words):
         environment = {**os.environ, "PYTHONPATH": str(tree)}
         line = [sys.executable, "-m", "seisblock", *words]
-        done = subprocess.run(line, cwd=tree, env=environment, capture_output=True, text=True, timeout=300, check=False)
-        assert done.returncode == 0, done.stderr
-        return done.stdout
+        result = subprocess.run(line, cwd=tree, env=environment, capture_output=True, text=True, timeout=300, check=False)
+        assert result.returncode == 0, result.stderr
+        return result.stdout
 
     return run
 

@@ -9,17 +9,18 @@ import pytest
 
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.types import Count
-from seisblock.report.json.units import split_unit
+from seisblock.output.json.units import split_unit
 from tests.public_names import PUBLIC
 
 UNIT = (
-    r"(?:N/m\^3|N/m|kg\sm\^2|kg/m\^3|kg|m/s\^[23]|m/s|m\^[23]|1/s\^2|1/s|1/m|rad/s|rad|deg(?:rees)?|Hz|gal|kine|Pa|J|N|1/year|years|m|s|1)"
+    r"(?:N/m\^3|N/m|kg\sm\^2|kg/m\^3|kg|m/s\^[23]|m/s|m\^[23]|1/s\^2|1/s|1/m|rad/s|rad|deg(?:rees)?|Hz|gal|kine|Pa|J|N|1/year|years"
+    r"|km|m|s|1)"
 )
 DIMENSION = re.compile(
     rf"(?:(?:,|\)|\bin|\bor|\band)\s|\(){UNIT}(?![\w^/])"  # "Height H, m or with a unit", "(n,) array, m/s^2"
     r"|\b0\sto\s1\b|\bbetween\s0\sand\s1\b|\[0,\s1|\bunits\b|in\s`unit`"
     r"|\b[Ss]hares?\b|\b[Rr]atios?\b|\b[Ff]actors?\b|\b[Cc]oefficients?\b|\btimes\sslower\b|\bln\s(?:PGA|f)\b|[A-Za-z]/[A-Z]\b"
-    r"|\b[Dd]egrees\b|\b[Pp]er\scent\b|\blogarithm\b|\bpoints\b",
+    r"|\bJMA\sintensity\b|\b[Dd]egrees\b|\b[Pp]er\scent\b|\blogarithm\b|\bpoints\b",
 )
 """A unit where the house writes units, or the word for a number that has none."""
 
@@ -85,17 +86,17 @@ def numbers_described(text):
     """Yield (names, what is said of them) of each parameter or field of a docstring that is a number or an array of numbers."""
     lines = text.splitlines()
     for i, line in enumerate(lines):
-        found = re.fullmatch(r"([a-z_]\w*(?:, [a-z_]\w*)*) : (.*\b(?:floats?|arrays?)\b(?! of (?:int|bool)).*)", line)
-        if found:
-            told = itertools.takewhile(lambda following: following.startswith("    "), lines[i + 1 :])
-            yield found[1].split(", "), " ".join([found[2], *(each.strip() for each in told)])
+        result = re.fullmatch(r"([a-z_]\w*(?:, [a-z_]\w*)*) : (.*\b(?:floats?|arrays?)\b(?! of (?:int|bool)).*)", line)
+        if result:
+            message = itertools.takewhile(lambda following: following.startswith("    "), lines[i + 1 :])
+            yield result[1].split(", "), " ".join([result[2], *(item.strip() for item in message)])
 
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_public_api_states_units(name):
     """Every number that goes in or comes out has its unit in its name or in its docstring."""
     described = list(numbers_described(inspect.getdoc(PUBLIC[name]) or ""))
-    silent = [each for names, text in described for each in names if not (named_dimension(each) or DIMENSION.search(text))]
+    silent = [item for names, text in described for item in names if not (named_dimension(item) or DIMENSION.search(text))]
     assert silent == []
 
 

@@ -13,6 +13,7 @@ from tests.trees import syntax_tree
 PACKAGE = Path(seisblock.__file__).parent
 ROOT = PACKAGE.parent
 SOURCES = sorted(PACKAGE.rglob("*.py"))
+TEST_SOURCES = sorted((ROOT / "tests").rglob("*.py"))
 QUESTION = re.compile(r"(?:What|Where|How|Which|When|Whether|Why)\b")
 
 BARE_WORDS = frozenset(
@@ -183,17 +184,17 @@ USER_PHRASES = re.compile(
 )
 
 
-def documented_nodes():
-    """Yield (place, docstring) of each module, class and function of the package."""
-    for path in SOURCES:
+def documented_nodes(sources=SOURCES):
+    """Yield (place, docstring) of each module, class and function of the package, or of the tests."""
+    for path in sources:
         for node in ast.walk(syntax_tree(path)):
             if isinstance(node, (ast.Module, ast.FunctionDef, ast.ClassDef)) and ast.get_docstring(node):
-                yield f"{path.relative_to(PACKAGE).as_posix()}:{getattr(node, 'name', 'module')}", ast.get_docstring(node)
+                yield f"{path.relative_to(ROOT).as_posix()}:{getattr(node, 'name', 'module')}", ast.get_docstring(node)
 
 
-def bound_names():
-    """Yield every name that the package binds: variables, parameters, functions and classes."""
-    for path in SOURCES:
+def bound_names(sources=SOURCES):
+    """Yield every name that the package, or the tests, bind: variables, parameters, functions and classes."""
+    for path in sources:
         for node in ast.walk(syntax_tree(path)):
             if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
                 yield node.id
@@ -203,16 +204,18 @@ def bound_names():
                 yield node.name
 
 
-def test_docstrings_begin_with_a_fact():
+@pytest.mark.parametrize("sources", [SOURCES, TEST_SOURCES], ids=["package", "tests"])
+def test_docstrings_begin_with_a_fact(sources):
     """No first line of a docstring begins with an interrogative."""
-    assert [place for place, text in documented_nodes() if QUESTION.match(text)] == []
+    assert [place for place, text in documented_nodes(sources) if QUESTION.match(text)] == []
 
 
-def test_names_are_nouns_and_verbs():
+@pytest.mark.parametrize(("sources", "count"), [(SOURCES, 25_000), (TEST_SOURCES, 15_000)], ids=["package", "tests"])
+def test_names_are_nouns_and_verbs(sources, count):
     """Participles, pronouns and adverbs alone are rare among bound names."""
-    names = list(bound_names())
+    names = list(bound_names(sources))
     bare = [name for name in names if name.strip("_").lower() in BARE_WORDS]
-    assert len(names) > 25_000
+    assert len(names) > count
     assert len(bare) / len(names) <= MAX_BARE_NAMES, sorted(set(bare))
 
 

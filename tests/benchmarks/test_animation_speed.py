@@ -1,12 +1,12 @@
-"""How long a film of a 20 s response takes to draw: it should play longer than it takes."""
+"""Speed of animations: a film of a 20 s response is drawn faster than it plays."""
 
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.models.rock.animate import animate
 from seisblock.models.rock.solve import solve_rock
+from seisblock.output.animation.render import AnimationOptions
 from seisblock.records import Motion
-from seisblock.report.animation.render import AnimationOptions
-from seisblock.report.animation.rock import animate
 
 
 def test_animation_of_20_s_rocking(benchmark, tmp_path):

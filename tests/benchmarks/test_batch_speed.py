@@ -1,4 +1,4 @@
-"""What a row of a batch costs beside the solver's own call, and what a record costs beside its rows."""
+"""Cost of a batch row beside the solver's own call, and of a record beside its rows."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ def test_batch_row(benchmark, solver, bodies, options, single):
     assert len(rows()) == len(calls()) == 20
     benchmark(rows)
     if benchmark.stats is not None:
-        alone = min(_seconds(calls) for _ in range(5)) / 20
+        separate = min(_seconds(calls) for _ in range(5)) / 20
         together = benchmark.stats.stats.min / 20
-        benchmark.extra_info |= {"ms_per_row": 1e3 * together, "ms_per_call": 1e3 * alone}
-        assert together < alone + 0.3e-3
+        benchmark.extra_info |= {"ms_per_row": 1e3 * together, "ms_per_call": 1e3 * separate}
+        assert together < separate + 0.3e-3
 
 
 def test_batch_on_two_dask_processes(benchmark, tmp_path):
@@ -63,24 +63,24 @@ def test_batch_on_two_dask_processes(benchmark, tmp_path):
         pytest.skip("is a measurement, on two idle cores")
     names = [str(write_record(tmp_path / f"r{seed:02d}.csv", seed, samples=6000, peak=3.0)) for seed in range(20)]
     bodies = {f"block {number}": Block(0.15 + 0.005 * number, 0.9) for number in range(100)}
-    alone, beside = _on_processes(1, names, bodies)
+    single, beside = _on_processes(1, names, bodies)
     with cluster.connect("local:2") as client:
         run_batch(names[:4], bodies, "rock", client=client)
         table = benchmark.pedantic(run_batch, args=(names, bodies, "rock"), kwargs={"client": client}, rounds=3)
     assert len(table) == 20 * 2 * 100
     if benchmark.stats is not None:
-        benchmark.extra_info |= {"times_one": alone / benchmark.stats.stats.min, "client_ms_per_record": 1e3 * beside / len(names)}
+        benchmark.extra_info |= {"times_one": single / benchmark.stats.stats.min, "client_ms_per_record": 1e3 * beside / len(names)}
 
 
 def _on_processes(count, names, bodies):
     """Return how long a batch takes on some processes, at best, and the time of a processor that this one spends meanwhile."""
     with cluster.connect(f"local:{count}") as client:
         run_batch(names[: 2 * count], bodies, "rock", client=client)
-        found = []
+        collected = []
         for _ in range(3):
-            spent = time.process_time()
-            found.append((_seconds(lambda: run_batch(names, bodies, "rock", client=client)), time.process_time() - spent))
-    return min(taken for taken, _ in found), min(spent for _, spent in found)
+            duration = time.process_time()
+            collected.append((_seconds(lambda: run_batch(names, bodies, "rock", client=client)), time.process_time() - duration))
+    return min(selection for selection, _ in collected), min(seconds for _, seconds in collected)
 
 
 def _seconds(work):

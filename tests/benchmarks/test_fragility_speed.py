@@ -1,4 +1,4 @@
-"""How fast fragilities come: the runs, the fits of all samples of the records, and both together."""
+"""Speed of fragilities: runs, fits of all samples of the records, and both together."""
 
 import numpy as np
 import pytest
@@ -24,8 +24,8 @@ def test_fragility_of_nine_blocks(benchmark):
 def test_bootstrap_of_1000_samples(benchmark):
     """The bootstrap of one curve, 1000 samples at 60 levels: at most 0.2 s."""
     levels = np.geomspace(0.1, 5.0, 60)
-    dice = np.random.default_rng(0)
-    counts = np.array([(0.7 * np.exp(0.45 * dice.normal(size=44))[:, None] <= levels).sum(axis=0) for _ in range(1000)], dtype=float)
+    rng = np.random.default_rng(0)
+    counts = np.array([(0.7 * np.exp(0.45 * rng.normal(size=44))[:, None] <= levels).sum(axis=0) for _ in range(1000)], dtype=float)
     medians, _ = benchmark(fit_lognormals, levels, counts, np.full((1, 60), 44.0))
     assert np.isfinite(medians).all()
     assert benchmark.stats is None or benchmark.stats.stats.min < 0.2

@@ -1,4 +1,4 @@
-"""What one sample of the jump costs, on one core: rest, rocking and flight."""
+"""Cost of one sample of the jump on one core: rest, rocking and flight."""
 
 import numpy as np
 import pytest
@@ -54,9 +54,9 @@ def test_jump_many_100_factors(benchmark):
     block, contact = load_two_layer("chozusha"), load_contact("chozusha")
     motion = shaking(60.0, 0.01, peaks=(9.0, 5.0, 3.0), seed=1)
     factors = np.linspace(0.5, 1.5, 100)
-    found = benchmark(jump_many, [block], motion, contacts=[contact], factors=factors)
-    assert len(found.chains.row) > 2000
+    result = benchmark(jump_many, [block], motion, contacts=[contact], factors=factors)
+    assert len(result.chains.row) > 2000
     if benchmark.stats is not None:
         benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / (motion.samples * factors.size) * 1e9
-        alone = best(lambda: solve_jump(block, motion, contact=contact), repeats=3)
-        assert benchmark.stats.stats.min / factors.size < alone / 5.0
+        single = best(lambda: solve_jump(block, motion, contact=contact), repeats=3)
+        assert benchmark.stats.stats.min / factors.size < single / 5.0

@@ -59,5 +59,5 @@ def test_text_readers_import_no_large_package():
         "import sys, seisblock; seisblock.read('synthetic_jma.csv'); seisblock.read('elcentro_1940_ns'); "
         "print([m for m in ('obspy', 'scipy', 'pandas', 'matplotlib', 'numba') if m in sys.modules])"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert result.stdout.strip() == "[]"

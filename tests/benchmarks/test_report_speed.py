@@ -1,4 +1,4 @@
-"""What a report costs: of one body when everything is loaded, and as a command of one body and of three, from nothing to the page."""
+"""Cost of a report: one body after loading, and the command for one body and for three."""
 
 import resource
 import subprocess
@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import pytest
 
+from seisblock.output.io.atomic import write_records
 from seisblock.readers import read
 from seisblock.report.html.report import report
-from seisblock.report.io.atomic import write_records
-from seisblock.studies.assessment import assess
 from seisblock.studies.report.models import body_models
+from seisblock.studies.report.responses import collect_responses
 from tests.report.long_record import record
 
 THREE = ("gravestone", "chozusha", "24cmx72cm")
@@ -27,7 +27,7 @@ def cpu_of_children():
 def test_report_of_one_body(benchmark):
     """The bundled record of 60 s and a gravestone: models, versions and three drawings."""
     record, stone = read("synthetic_jma.csv"), body_models("gravestone")
-    page = benchmark.pedantic(lambda: report(assess(record, [stone])), rounds=3, warmup_rounds=1)
+    page = benchmark.pedantic(lambda: report(collect_responses(record, [stone])), rounds=3, warmup_rounds=1)
     assert page.count("data:image/svg+xml") == 3
 
 
@@ -37,7 +37,7 @@ def test_report_of_one_body(benchmark):
 def test_report_command(benchmark, bodies, tmp_path):
     """The whole command on 300 s of three components, processor time: below 5 s for one body and 10 s for three on one core of 2024."""
     (path,) = write_records(tmp_path, [replace(record(), source="long")])
-    named = [word for body in bodies for word in ("--body", body)]
-    words = [sys.executable, "-m", "seisblock", "report", str(path), *named, "--mu", "0.3", "-o", str(tmp_path / "page.html")]
+    items = [word for body in bodies for word in ("--body", body)]
+    words = [sys.executable, "-m", "seisblock", "report", str(path), *items, "--mu", "0.3", "-o", str(tmp_path / "page.html")]
     benchmark.pedantic(lambda: subprocess.run(words, check=True, capture_output=True), rounds=3, warmup_rounds=1)
     assert (tmp_path / "page.html").read_text(encoding="utf-8").count("<h2 id=") == 2 + len(bodies)

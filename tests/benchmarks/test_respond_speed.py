@@ -1,4 +1,4 @@
-"""How fast the five-mode model answers: a sample of each mode, a probability of 200 versions, MuJoCo side by side."""
+"""Speed of the five-mode model: a sample of each mode, a probability of 200 samples, MuJoCo for comparison."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ def one_mode(benchmark, block, motion, initial, mode, nanoseconds, **friction):
     def work(keep=False):
         return integrate(RESPOND, motion, p, y, constants.START, gains=(1.0, 0.0, 1.0), keep_path=keep, keep_events=keep)
 
-    kept = work(keep=True)
-    samples = kept.end.sample
-    inside = np.isin([constants.MODES[each] for each in kept.modes[1 : samples + 1]], mode)
+    remaining = work(keep=True)
+    samples = remaining.end.sample
+    inside = np.isin([constants.MODES[item] for item in remaining.modes[1 : samples + 1]], mode)
     assert samples > 2000
     assert inside.mean() > 0.97
     benchmark(work)
@@ -97,10 +97,10 @@ def test_respond_probability_of_200_samples(benchmark):
     """200 versions of a cabinet under 60 s of strong motion at 100 Hz, on to their rest: at most 1.5 s on two threads."""
     motion = strong_minute()
     settings = versions(Block(0.45, 1.4))
-    found = benchmark.pedantic(respond_many, (settings, motion), {"workers": 2}, rounds=3, warmup_rounds=1)
-    assert found.overturned.size == 200
-    assert (found.impacts > 10).sum() > 100
-    assert (found.slip_path_m > 0.0).sum() > 100
+    shaking = benchmark.pedantic(respond_many, (settings, motion), {"workers": 2}, rounds=3, warmup_rounds=1)
+    assert shaking.overturned.size == 200
+    assert (shaking.impacts > 10).sum() > 100
+    assert (shaking.slip_path_m > 0.0).sum() > 100
     assert_faster_than(benchmark, 1.5)
 
 
@@ -115,29 +115,29 @@ def test_solve_respond_of_60_s(benchmark):
 def run_command(*words):
     """Run a command in a process of its own; return its answer and the processor time it took, s."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([sys.executable, "-m", "seisblock", *words, "--quiet", "--json"], capture_output=True, check=True)
+    result = subprocess.run([sys.executable, "-m", "seisblock", *words, "--quiet", "--json"], capture_output=True, check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return json.loads(done.stdout), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return json.loads(result.stdout), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 @pytest.mark.slow
 def test_respond_command_with_warm_cache(benchmark):
     """From the shell, kernels compiled before, `respond` with 200 versions of two components costs less than twice what `slide` does."""
     words = ("respond", "--width", "45cm", "--height", "180cm", "--mu", "0.3")
-    spent = []
+    duration = []
 
     def run():
         answer, took = run_command(*words)
-        spent.append(took)
+        duration.append(took)
         return answer
 
     answer = benchmark.pedantic(run, rounds=5, warmup_rounds=1)
     assert [result["probability"]["runs"] for result in answer["results"]] == [200, 200]
     if benchmark.stats is not None:
         base = min(run_command("slide", "--mu", "0.3")[1] for _ in range(5))
-        benchmark.extra_info |= {"processor_s": min(spent), "over_slide": min(spent) / base}
-        print(f"respond: {min(spent):.2f} s of processor time for a warm command, slide: {base:.2f} s")
-        assert min(spent) < 2.0 * base
+        benchmark.extra_info |= {"processor_s": min(duration), "over_slide": min(duration) / base}
+        print(f"respond: {min(duration):.2f} s of processor time for a warm command, slide: {base:.2f} s")
+        assert min(duration) < 2.0 * base
 
 
 def test_respond_is_faster_than_mujoco(benchmark):

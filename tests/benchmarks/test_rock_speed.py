@@ -1,4 +1,4 @@
-"""How fast rocking answers."""
+"""Speed of rocking."""
 
 from __future__ import annotations
 
@@ -90,8 +90,8 @@ def test_solve_rock_overhead(benchmark):
 def test_rock_many_overhead_per_run(benchmark):
     """10 000 blocks, made, followed through two samples and judged: at most 5 microseconds each (40 before)."""
     still = Motion.from_arrays(np.zeros(2), 0.01)
-    found = benchmark(rocking_spectrum, default_sizes(100), default_slendernesses(100), still)
-    assert not found.overturned.any()
+    spectrum = benchmark(rocking_spectrum, default_sizes(100), default_slendernesses(100), still)
+    assert not spectrum.overturned.any()
     bound(benchmark, 5e-6 * 10_000)
 
 
@@ -102,10 +102,10 @@ def test_solve_rock_is_faster_than_pyslammer(benchmark):
 
     recorded, dt = pyslammer_motion("Loma_Prieta_1989_HSP-000")
     a = np.concatenate([recorded, np.zeros(round(300.0 / dt) - recorded.size)])
-    motion, other, block = Motion.from_arrays(G * a, dt), GroundMotion(a, dt, "300 s"), from_slenderness(0.25, 2.14)
+    motion, second, block = Motion.from_arrays(G * a, dt), GroundMotion(a, dt, "300 s"), from_slenderness(0.25, 2.14)
     answer = benchmark(solve_rock, block, motion)
     assert answer.outcome.impacts > 100 and not answer.outcome.overturned
-    ratio = best(lambda: RigidAnalysis(0.1, other), repeats=5) / best(lambda: solve_rock(block, motion), repeats=20)
+    ratio = best(lambda: RigidAnalysis(0.1, second), repeats=5) / best(lambda: solve_rock(block, motion), repeats=20)
     benchmark.extra_info["times_faster"] = ratio
     print(f"rock: a single answer {ratio:.0f} times faster than pySLAMMER's")
     assert ratio > TIMES_FASTER_ALONE * share(benchmark)

@@ -33,9 +33,13 @@ def test_scan_body_of_a_million_triangles(benchmark):
     mesh = Mesh(*frustum(SIDES, 0.3, 0.25, 0.9))
 
     def body():
-        found = mass_properties(mesh)
-        return found, find_resting_pose(mesh.vertices, found.centre, tolerance=1e-3, source="a scan"), convex_hull(mesh.vertices[:, :2])
+        properties = mass_properties(mesh)
+        return (
+            properties,
+            find_resting_pose(mesh.vertices, properties.centre, tolerance=1e-3, source="a scan"),
+            convex_hull(mesh.vertices[:, :2]),
+        )
 
-    found, on, outline = benchmark.pedantic(body, rounds=1, warmup_rounds=0)
-    assert found.volume == pytest.approx(np.pi * 0.9 * (0.3**2 + 0.3 * 0.25 + 0.25**2) / 3.0, rel=1e-6)
+    result, on, outline = benchmark.pedantic(body, rounds=1, warmup_rounds=0)
+    assert result.volume == pytest.approx(np.pi * 0.9 * (0.3**2 + 0.3 * 0.25 + 0.25**2) / 3.0, rel=1e-6)
     assert on.touching == SIDES + 1 and 1000 < len(outline) < 10_000

@@ -1,4 +1,4 @@
-"""How fast sliding is: nanoseconds per sample and parameter set, a study of 10 000 points, and pySLAMMER side by side."""
+"""Speed of sliding: nanoseconds per sample and parameter set, a study of 10 000 points, pySLAMMER for comparison."""
 
 from __future__ import annotations
 
@@ -87,20 +87,20 @@ def test_slide_study_is_faster_than_pyslammer(benchmark):
     from pyslammer.rigid_analysis import RigidAnalysis
 
     records = [(Motion.from_arrays(-G * a, dt), GroundMotion(a, dt, name)) for name in PYSLAMMER for a, dt in [pyslammer_motion(name)]]
-    some, many = [0.05, 0.1, 0.2, 0.3], np.linspace(0.05, 0.30, 251)
+    subset, rows = [0.05, 0.1, 0.2, 0.3], np.linspace(0.05, 0.30, 251)
 
     def mine():
-        return [slide_study(many, motion, one_way=True, workers=1) for motion, _ in records]
+        return [slide_study(rows, motion, one_way=True, workers=1) for motion, _ in records]
 
     def theirs():
-        return [RigidAnalysis(ky, other) for _, other in records for ky in some]
+        return [RigidAnalysis(ky, second) for _, second in records for ky in subset]
 
     benchmark.pedantic(mine, rounds=3, warmup_rounds=1)
-    reference = best(theirs, repeats=3) / len(some)
-    ratio = reference / (best(mine) / many.size)
-    alone = reference / best(lambda: [solve_slide(sliding_base(0.1, one_way=True), motion) for motion, _ in records])
+    reference = best(theirs, repeats=3) / len(subset)
+    ratio = reference / (best(mine) / rows.size)
+    single = reference / best(lambda: [solve_slide(sliding_base(0.1, one_way=True), motion) for motion, _ in records])
     benchmark.extra_info["times_faster"] = ratio
-    print(f"slide: {ratio:.0f} times faster per analysis than pySLAMMER's; {alone:.0f} times for a single one with its time histories")
+    print(f"slide: {ratio:.0f} times faster per analysis than pySLAMMER's; {single:.0f} times for a single one with its time histories")
     assert ratio > TIMES_FASTER * share(benchmark)
 
 
@@ -110,10 +110,10 @@ def test_solve_slide_is_faster_than_pyslammer(benchmark):
     from pyslammer.rigid_analysis import RigidAnalysis
 
     motion = strong_motion(30_000)
-    other, base = GroundMotion(-motion.horizontal / G, motion.dt, "300 s"), sliding_base(0.1, one_way=True)
+    second, base = GroundMotion(-motion.horizontal / G, motion.dt, "300 s"), sliding_base(0.1, one_way=True)
     curves = benchmark(lambda: solve_slide(base, motion).channels)
     assert len(curves) == 7
-    ratio = best(lambda: RigidAnalysis(0.1, other), repeats=5) / best(lambda: solve_slide(base, motion).channels, repeats=50)
+    ratio = best(lambda: RigidAnalysis(0.1, second), repeats=5) / best(lambda: solve_slide(base, motion).channels, repeats=50)
     benchmark.extra_info["times_faster"] = ratio
     print(f"slide: a single answer {ratio:.0f} times faster than pySLAMMER's")
     assert ratio > TIMES_FASTER_ALONE * share(benchmark)

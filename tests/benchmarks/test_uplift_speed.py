@@ -1,4 +1,4 @@
-"""How fast uplift answers."""
+"""Speed of uplift."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ def test_uplift_many_of_60_s(benchmark):
     """Sixteen blocks side by side take no longer than one after another: three integrations of 1.5 microseconds per sample each."""
     bodies = [SpringBlock.from_frequency(0.6, 0.6, 1.2 + 0.05 * n, frequency_vertical=10.0, beta=0.707) for n in range(16)]
     motion = shaking(60.0, 0.01)
-    found = benchmark(uplift_many, bodies, motion)
-    assert (found.contact_changes > 100).sum() > 8
+    result = benchmark(uplift_many, bodies, motion)
+    assert (result.contact_changes > 100).sum() > 8
     if benchmark.stats is not None:
         benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / (motion.samples * len(bodies)) * 1e9
-        alone = sum(best(lambda body=body: solve_uplift(body, motion), repeats=3) for body in bodies)
-        assert benchmark.stats.stats.min < 1.1 * alone
+        single = sum(best(lambda body=body: solve_uplift(body, motion), repeats=3) for body in bodies)
+        assert benchmark.stats.stats.min < 1.1 * single

@@ -12,12 +12,12 @@ def frustum(sides, below, above, height, *, sheared=(0.0, 0.0)):
     low = ring * below
     high = ring * above + np.array([*sheared, height])
     vertices = np.concatenate([low, high, [[0.0, 0.0, 0.0], [*sheared, height]]])
-    here, there = np.arange(sides), (np.arange(sides) + 1) % sides
+    first, second = np.arange(sides), (np.arange(sides) + 1) % sides
     faces = [
-        *np.column_stack([there, here, np.full(sides, 2 * sides)]),
-        *np.column_stack([here + sides, there + sides, np.full(sides, 2 * sides + 1)]),
-        *np.column_stack([here, there, there + sides]),
-        *np.column_stack([here, there + sides, here + sides]),
+        *np.column_stack([second, first, np.full(sides, 2 * sides)]),
+        *np.column_stack([first + sides, second + sides, np.full(sides, 2 * sides + 1)]),
+        *np.column_stack([first, second, second + sides]),
+        *np.column_stack([first, second + sides, first + sides]),
     ]
     return vertices, np.array(faces)
 
@@ -25,8 +25,8 @@ def frustum(sides, below, above, height, *, sheared=(0.0, 0.0)):
 def box(width, depth, height):
     """Return vertices and faces of a box whose base has its middle at the origin."""
     vertices, faces = frustum(4, 1.0, 1.0, height)
-    turned = vertices[:, :2] @ np.array([[1.0, 1.0], [-1.0, 1.0]])  # by an eighth: corners at (+-1, +-1)
-    return np.column_stack([turned * (0.5 * width, 0.5 * depth), vertices[:, 2]]), faces
+    rotated = vertices[:, :2] @ np.array([[1.0, 1.0], [-1.0, 1.0]])  # by an eighth: corners at (+-1, +-1)
+    return np.column_stack([rotated * (0.5 * width, 0.5 * depth), vertices[:, 2]]), faces
 
 
 def write_stl(path, vertices, faces):

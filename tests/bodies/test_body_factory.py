@@ -9,7 +9,7 @@ from seisblock.bodies.factory import block_from_table, load_block
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.cli.bodies.block import choose_block
 from seisblock.core.errors import BodyError, InputError
-from seisblock.report.json.bodies import block_entry
+from seisblock.output.json.bodies import block_entry
 
 
 def test_bundled_gravestone_has_shaking_table_size():
@@ -61,9 +61,9 @@ def test_toml_body_accepts_units_and_all_entries(tmp_path):
     )
     block = load_block(path)
     assert block == Block(0.4, 1.6, 0.303, 300.0, centroid_height=0.7, centroid_offset=-0.02, centroid_inertia=60.0, name="statue")
-    told = block_entry(block)
-    assert told.mass_kg == 300.0
-    assert told.slenderness_right_rad == pytest.approx(math.atan(0.22 / 0.7))
+    text = block_entry(block)
+    assert text.mass_kg == 300.0
+    assert text.slenderness_right_rad == pytest.approx(math.atan(0.22 / 0.7))
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("asked", "says"),
+    ("values", "says"),
     [
         ({}, "--width, --height missing"),
         ({"width": 0.2}, "--height missing"),
@@ -105,10 +105,10 @@ def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
         ({"block": "obelisk"}, "no body file obelisk"),
     ],
 )
-def test_body_options_report_missing_values(asked, says):
+def test_body_options_report_missing_values(values, says):
     """The message says what is missing."""
     with pytest.raises(BodyError, match=says):
-        choose_block(asked)
+        choose_block(values)
 
 
 def test_resized_block_keeps_given_mass():
@@ -119,7 +119,7 @@ def test_resized_block_keeps_given_mass():
 
 @pytest.mark.parametrize("depth", [None, 0.3])
 def test_resized_block_scales_radius_of_gyration(depth):
-    """Where the mass follows from the volume, the inertia follows the mass: its radius of gyration doubles with the size, no more (N6)."""
+    """The radius of gyration doubles with the size where the mass follows from the volume (N6)."""
     block = Block(0.4, 1.0, depth, centroid_inertia=30.0)
     for slenderness in (1.0, 1.1):
         twice = scale_block(block, size=2.0, slenderness=slenderness)

@@ -31,15 +31,15 @@ def test_body_table_accepts_units_in_headings_or_cells(tmp_path):
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
 def test_body_table_accepts_japanese(tmp_path, encoding):
     """Names, full-width digits and encodings as spreadsheets in Japan write them."""
-    found = read_table(tmp_path, "名前,幅(cm),高さ,静摩擦係数,接触面\n仏像,４５,160cm,0.5,\n灯籠,30,1.8,,wood/stone\n", encoding)
-    assert found == {"仏像": {"width": 0.45, "height": 1.6, "mu": 0.5}, "灯籠": {"width": 0.3, "height": 1.8, "surface": "wood/stone"}}
+    target = read_table(tmp_path, "名前,幅(cm),高さ,静摩擦係数,接触面\n仏像,４５,160cm,0.5,\n灯籠,30,1.8,,wood/stone\n", encoding)
+    assert target == {"仏像": {"width": 0.45, "height": 1.6, "mu": 0.5}, "灯籠": {"width": 0.3, "height": 1.8, "surface": "wood/stone"}}
 
 
 def test_body_table_rows_may_name_bodies_or_files(tmp_path):
     """A bundled body or a file, beside bodies named by themselves."""
     (tmp_path / "b.csv").write_text("name,body,mu,side\npavilion,chozusha,0.3,long\n")
-    row, alone = read_bodies([tmp_path / "b.csv", "gravestone"])
-    assert (row.description["kind"], row.parameters, alone.name) == ("two-layer", {"mu": 0.3, "side": "long"}, "gravestone")
+    row, single = read_bodies([tmp_path / "b.csv", "gravestone"])
+    assert (row.description["kind"], row.parameters, single.name) == ("two-layer", {"mu": 0.3, "side": "long"}, "gravestone")
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import parse_cemetery, read_cemetery
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import use_locale
-from seisblock.report.text.tables import format_number
+from seisblock.output.text.tables import format_number
 from seisblock.samples import sample_path
 from tests import make_aoyama
 
@@ -26,23 +26,23 @@ SURVEY = """\
 
 def test_cemetery_accepts_english_columns_with_ratio():
     """height_over_width is enough; the other columns are optional and unknown ones passed over."""
-    found = parse_cemetery("block,Height over width,fallen,count\nA,2.6,yes,\nB,3.1,0,4\n")
-    assert [s.height_over_width for s in found.stones] == [2.6, 3.1]
-    assert [s.fallen for s in found.stones] == [True, False]
-    assert (found.size, found.ratios.tolist()) == (5, [2.6, 3.1, 3.1, 3.1, 3.1])
-    assert [s.line for s in found.stones] == [2, 3]
-    assert found.has_survey
+    cemetery = parse_cemetery("block,Height over width,fallen,count\nA,2.6,yes,\nB,3.1,0,4\n")
+    assert [s.height_over_width for s in cemetery.stones] == [2.6, 3.1]
+    assert [s.fallen for s in cemetery.stones] == [True, False]
+    assert (cemetery.size, cemetery.ratios.tolist()) == (5, [2.6, 3.1, 3.1, 3.1, 3.1])
+    assert [s.line for s in cemetery.stones] == [2, 3]
+    assert cemetery.has_survey
 
 
 def test_cemetery_accepts_japanese_columns_with_sizes():
     """Japanese headings, full-width digits and brackets, comments and empty cells."""
-    found = parse_cemetery(SURVEY)
-    assert found.ratios.tolist() == [2.6, 2.625, 2.625, 2.0]
-    assert [s.reinforced for s in found.stones] == [False, True, False]
-    assert [s.fallen for s in found.stones] == [True, False, None]
-    assert found.stones[0].azimuth_deg == 90.0
-    assert found.stones[0].width == 0.24
-    assert found.notes == ("墓地の調査", "2024-01-01")
+    cemetery = parse_cemetery(SURVEY)
+    assert cemetery.ratios.tolist() == [2.6, 2.625, 2.625, 2.0]
+    assert [s.reinforced for s in cemetery.stones] == [False, True, False]
+    assert [s.fallen for s in cemetery.stones] == [True, False, None]
+    assert cemetery.stones[0].azimuth_deg == 90.0
+    assert cemetery.stones[0].width == 0.24
+    assert cemetery.notes == ("墓地の調査", "2024-01-01")
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
@@ -80,9 +80,9 @@ def test_cemetery_accepts_units_in_heading_or_cell(table, height):
         ("height,fallen\n1,0\n", "line 1: columns required: height_over_width, or height and width; found height, fallen"),
         ("2.5,1\n2.6,0\n", "line 1: columns required: height_over_width"),
         ("H/B,height over width\n1,2\n", "line 1: two columns mean height_over_width"),
-        ("H/B\n2.5\n0\n", "line 3: height over width must be positive, found 0"),
-        ("H/B\n2.5\n-1\n2\n-2\nx\n", r"line 3: height over width must be positive, found -1 \(2 more invalid rows: lines 5, 6\)"),
-        ("# c\nH/B\nnan\n", "line 3: height over width must be positive, found nan"),
+        ("H/B\n2.5\n0\n", "line 3: height_over_width must be positive, found 0"),
+        ("H/B\n2.5\n-1\n2\n-2\nx\n", r"line 3: height_over_width must be positive, found -1 \(2 more invalid rows: lines 5, 6\)"),
+        ("# c\nH/B\nnan\n", "line 3: height_over_width must be positive, found nan"),
         ("H/B\ntall\n", "line 2: height_over_width must be a number, found 'tall'"),
         ("H/B,fallen\n2.5,maybe\n", "line 2: fallen must be 0, 1, yes, no, 転倒 or 残存, found 'maybe'"),
         ("H/B,reinforced\n2.5,steel\n", "line 2: reinforced must be 0, 1, yes or no, found 'steel'"),
@@ -90,10 +90,10 @@ def test_cemetery_accepts_units_in_heading_or_cell(table, height):
         ("H/B,count\n2.5,1.5\n", "line 2: count must be an integer"),
         ("H/B,count\n2.5,inf\n", "line 2: count must be an integer"),
         ("H/B,azimuth\n2.5,NE\n", "line 2: azimuth_deg must be a number, found 'NE'"),
-        ("H/B,azimuth\n2.5,nan\n", "line 2: azimuth of a gravestone must be a finite number"),
-        ("height,width\n60,24\n", r"line 2: width of 24 m is not plausible for a gravestone \(read as metres without a unit"),
+        ("H/B,azimuth\n2.5,nan\n", "line 2: azimuth_deg must be a finite number"),
+        ("height,width\n60,24\n", r"line 2: height of 60 m is not plausible \(read as metres without a unit"),
         ("height (cm),width (cm)\n60,\n", "line 2: dimensions missing: height over width, or height and width, required; empty: width"),
-        ("height (cm),width (cm)\n60,-24\n", "line 2: width must be positive, found -24"),
+        ("height (cm),width (cm)\n60,-24\n", "line 2: width must be positive, found -0.24 m"),
         ("height (yards),width (cm)\n60,24\n", "line 2: height '60yards': unknown unit 'yards'"),
         ("H/B,height (cm),width (cm)\n3,60,24\n", "line 2: height over width is 3, but height and width give 2.5"),
         ("H/B\n2,6\n", "line 2: expected 1 cells as in the header, found 2"),
@@ -159,6 +159,6 @@ def test_cemetery_reads_printed_yes_and_no(lang):
     with use_locale(lang):
         yes, no = format_number(True), format_number(False)
     for fell, stood in ((yes, no), ("○", "×"), ("◯", "✕"), ("有", "無"), ("転倒", "残存")):
-        found = parse_cemetery(f"H/B,転倒,補強\n2.6,{fell},{no}\n3.1,{stood},{yes}\n")
-        assert [stone.fallen for stone in found.stones] == [True, False]
-        assert found.reinforced.tolist() == [False, True]
+        cemetery = parse_cemetery(f"H/B,転倒,補強\n2.6,{fell},{no}\n3.1,{stood},{yes}\n")
+        assert [stone.fallen for stone in cemetery.stones] == [True, False]
+        assert cemetery.reinforced.tolist() == [False, True]

@@ -36,9 +36,9 @@ def test_edge_wear_changes_arms_only():
 @given(st.just(0.0) | st.floats(1e-6, 0.45), st.floats(0.05, 2.0), st.floats(1.2, 6.0))
 def test_worn_block_rocks_like_narrower_block(share, width, ratio):
     """The equations know the base by its arms alone: a narrower block of the same mass, centre and inertia answers alike."""
-    whole = Block(width, width * ratio, mass=100.0)
-    worn = whole.with_wear(share)
-    narrow = Block(width * (1 - 2 * share), width * ratio, mass=100.0, centroid_inertia=100.0 * whole.gyration_squared)
+    full = Block(width, width * ratio, mass=100.0)
+    worn = full.with_wear(share)
+    narrow = Block(width * (1 - 2 * share), width * ratio, mass=100.0, centroid_inertia=100.0 * full.gyration_squared)
     assert worn.slendernesses == pytest.approx(narrow.slendernesses, rel=1e-12)
     assert worn.lever_ratios == pytest.approx(narrow.lever_ratios, rel=1e-12)
     assert worn.restitutions == pytest.approx(narrow.restitutions, rel=1e-9, abs=1e-12)
@@ -84,7 +84,7 @@ def test_only_bundled_gravestones_are_worn():
     assert load_block("chozusha").inset == 0.0
     table = {"kind": "block", "width": 0.4, "height": 1.0}
     assert block_from_table(table).inset == 0.0
-    assert [block_from_table({**table, "inset": given}).inset for given in (0.05, "2cm", "5%")] == pytest.approx([0.02, 0.02, 0.02])
+    assert [block_from_table({**table, "inset": arguments}).inset for arguments in (0.05, "2cm", "5%")] == pytest.approx([0.02, 0.02, 0.02])
     with pytest.raises(BodyError, match="inset must be a number"):
         block_from_table({**table, "inset": [1]})
 
@@ -92,10 +92,10 @@ def test_only_bundled_gravestones_are_worn():
 def test_spectrum_of_worn_blocks_equals_solve_rock():
     """rocking_spectrum tells the lean over the alpha that is left, as solve_rock does."""
     motion = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, 6 * np.pi, 301)), 0.01)
-    found = rocking_spectrum([1.0], [0.3], motion, inset=DEFAULT_WEAR)
-    alone = solve_rock(Block(math.sin(0.3), math.cos(0.3)).with_wear(DEFAULT_WEAR), motion).outcome
-    assert found.max_rotation_ratio[0, 0] == alone.max_rotation_ratio
-    assert alone.max_rotation_ratio != solve_rock(Block(math.sin(0.3), math.cos(0.3)), motion).outcome.max_rotation_ratio
+    spectrum = rocking_spectrum([1.0], [0.3], motion, inset=DEFAULT_WEAR)
+    single = solve_rock(Block(math.sin(0.3), math.cos(0.3)).with_wear(DEFAULT_WEAR), motion).outcome
+    assert spectrum.max_rotation_ratio[0, 0] == single.max_rotation_ratio
+    assert single.max_rotation_ratio != solve_rock(Block(math.sin(0.3), math.cos(0.3)), motion).outcome.max_rotation_ratio
 
 
 @pytest.fixture
@@ -104,9 +104,9 @@ def run(capsys):
 
     def call(*words):
         code = main([*map(str, words), "--json"], standalone_mode=False) or 0
-        said = capsys.readouterr()
-        assert code == 0, said.err
-        return json.loads(said.out), said.err
+        output = capsys.readouterr()
+        assert code == 0, output.err
+        return json.loads(output.out), output.err
 
     return call
 
@@ -115,30 +115,30 @@ def run(capsys):
 def test_inset_option_is_equal_in_every_command(run, command):
     """--inset as a share, as a percentage and as a length are the same stone; the output says how it is worn."""
     words = (command, "elcentro_1940_ns.csv", "--width", "24cm", "--height", "72cm", "--inset")
-    found = [run(*words, text) for text in ("0.1", "10%", "24mm")]
-    assert found[0][0]["results"] == found[1][0]["results"] == found[2][0]["results"]
-    assert found[0][0]["parameters"]["block"]["inset_m"] == pytest.approx(0.024)
-    assert found[0][0]["parameters"]["block"]["slenderness_right_rad"] == pytest.approx(math.atan(0.8 / 3))
-    assert "edge wear 2.4 cm (0.1 of the width)" in found[0][1]
+    items = [run(*words, text) for text in ("0.1", "10%", "24mm")]
+    assert items[0][0]["results"] == items[1][0]["results"] == items[2][0]["results"]
+    assert items[0][0]["parameters"]["block"]["inset_m"] == pytest.approx(0.024)
+    assert items[0][0]["parameters"]["block"]["slenderness_right_rad"] == pytest.approx(math.atan(0.8 / 3))
+    assert "edge wear 2.4 cm (0.1 of the width)" in items[0][1]
 
 
 def test_overturn_rate_converts_old_inset_and_warns(run):
     """`overturn-rate --inset 0.8` of 0.1.0, pivots over half width, is 0.1 per side, and says so on stderr and in the document."""
     words = ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", 400, "--frequency", 1, "--criterion", "simulate", "--inset")
-    (old, said), (new, _) = run(*words, "0.8"), run(*words, "0.1")
+    (old, message), (new, _) = run(*words, "0.8"), run(*words, "0.1")
     assert old["results"] == new["results"]
     assert old["parameters"]["inset"] == new["parameters"]["inset"] == {"length_m": 0.0, "share": 0.1}
     assert any("0.1 of the width per side" in text for text in old["warnings"])
-    assert "0.1 of the width per side" in said
+    assert "0.1 of the width per side" in message
     assert new["warnings"] == []
 
 
 def test_inset_has_no_effect_on_eq_9_and_says_so(run):
     """--inset changes nothing of eq. (9), and says so instead of keeping silent."""
     words = ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", 400, "--frequency", 1)
-    plain, told = run(*words)[0], run(*words, "--inset", "0.05")[0]
-    assert plain["results"] == told["results"]
-    assert any("has no effect" in text for text in told["warnings"])
+    plain, message = run(*words)[0], run(*words, "--inset", "0.05")[0]
+    assert plain["results"] == message["results"]
+    assert any("has no effect" in text for text in message["warnings"])
 
 
 def test_infer_of_worn_rigid_stones_gives_smaller_pga(run, monkeypatch):

@@ -39,7 +39,7 @@ def test_block_file_rejects_invalid_values(key, value, tmp_path):
 @pytest.mark.parametrize("value", NO_NUMBERS[:9])
 @pytest.mark.parametrize("key", ["mu", "mu_kinetic"])
 def test_contact_values_reject_invalid_types(key, value, tmp_path):
-    """What the commands look up beside the block."""
+    """Contact values beside the block reject invalid types."""
     table = read_body_toml(write_body(tmp_path, f'kind = "block"\nwidth = 0.3\nheight = 1\n{key} = {value}\nrestitution = {value}\n'))
     with pytest.raises(BodyError, match=key):
         table_friction(table, "body.toml")
@@ -73,8 +73,8 @@ def test_name_lists_reject_plain_text(line, tmp_path):
 @pytest.mark.parametrize("value", [*NO_NUMBERS[:9], "{ mu = 'x' }", "{ mu = [1] }", "{ mu = true }"])
 def test_two_layer_contact_rejects_invalid_values(value, tmp_path):
     """A table of numbers."""
-    whole = sample_path("chozusha.toml").read_text(encoding="utf-8").split("[contact]")[0]
-    path = write_body(tmp_path, f"{whole}\ncontact = {value}\n")
+    full = sample_path("chozusha.toml").read_text(encoding="utf-8").split("[contact]")[0]
+    path = write_body(tmp_path, f"{full}\ncontact = {value}\n")
     assert load_two_layer(path).width == 2.08
     with pytest.raises(BodyError, match="contact"):
         load_contact(path)
@@ -136,6 +136,6 @@ def test_empty_or_foreign_encoded_file_is_rejected(tmp_path, content, reason):
     """Neither an empty file nor one saved in another encoding is told in words of the decoder."""
     path = tmp_path / "body.toml"
     path.write_bytes(content)
-    with pytest.raises(BodyError, match=reason) as found:
+    with pytest.raises(BodyError, match=reason) as error:
         load_pile(path)
-    assert "codec" not in str(found.value)
+    assert "codec" not in str(error.value)

@@ -17,8 +17,8 @@ FOOT = PileStone("foot", 0.6, 0.6, 0.2)
 HEAD = PileStone("head", 0.3, 0.3, 0.5, on="foot")
 
 
-def pile(*stones, **more):
-    return Pile("pile", stones, **more)
+def pile(*stones, **extra):
+    return Pile("pile", stones, **extra)
 
 
 def test_bundled_wagata_has_sizes_of_paper():
@@ -143,12 +143,12 @@ def test_kinetic_friction_may_be_lower_than_static(tmp_path):
     stones = '[[stone]]\nname = "foot"\nwidth = 1.0\ndepth = 1.0\nheight = 0.2\nmu = 0.4\nmu_kinetic = 0.1\n'
     stones += '[[stone]]\nname = "head"\nwidth = 0.5\ndepth = 0.5\nheight = 0.2\n'
     file.write_text(f'kind = "pile"\nmu = 0.7\nmu_kinetic = 0.5\n{stones}')
-    own = load_pile(file)
-    assert [own.friction(), *map(own.friction, own.stones)] == [(0.7, 0.5), (0.4, 0.1), (0.7, 0.5)]
-    alike = own.with_kinetic_friction(0.3)
+    body_value = load_pile(file)
+    assert [body_value.friction(), *map(body_value.friction, body_value.stones)] == [(0.7, 0.5), (0.4, 0.1), (0.7, 0.5)]
+    alike = body_value.with_kinetic_friction(0.3)
     assert [alike.friction(stone) for stone in alike.stones] == [(0.4, 0.3), (0.7, 0.3)]
     same = load_pile(file, mu=0.2)
-    assert not same.has_lower_kinetic_friction and own.has_lower_kinetic_friction
+    assert not same.has_lower_kinetic_friction and body_value.has_lower_kinetic_friction
     assert {same.friction(stone) for stone in same.stones} == {(0.2, 0.2)}
 
 

@@ -8,7 +8,9 @@ import pytest
 from numpy.polynomial import Polynomial
 from scipy.spatial.transform import Rotation
 
-from seisblock import Block, EdgeWear, Motion, motion_of, read, solve_rock
+from seisblock import Block, Motion, motion_of, read, solve_rock
+from seisblock.bodies.convex import ConvexBody, convex_body
+from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.factory import block_for_motion, load_block
 from seisblock.bodies.scan.azimuths import scan_azimuths
 from seisblock.bodies.scan.body import ScannedBody, min_slenderness
@@ -20,6 +22,8 @@ from seisblock.bodies.scan.scan import scan_body
 from seisblock.bodies.scan.toml import load_scan, scan_from_table, scan_to_toml
 from seisblock.bodies.toml import read_body_toml
 from seisblock.core.errors import BodyError, ComponentError, InputError
+from seisblock.models.rigid3d.describe import contact_summary
+from seisblock.samples import sample_directory
 from tests import make_boulder
 from tests.bodies.meshes import box, frustum, write_obj, write_ply, write_stl
 
@@ -40,10 +44,10 @@ def polygon_properties(sides, radius):
 @pytest.mark.parametrize("sides", [3, 4, 17, 300])
 def test_scan_volume_centre_and_inertia_of_frusta(sides, below, above):
     """Volume, centre and inertia of prisms, frusta and cones over regular polygons are integrals of polynomials in z."""
-    height, far = 0.9, np.array([3.0, -2.0, 5.0])
+    height, distant = 0.9, np.array([3.0, -2.0, 5.0])
     vertices, faces = frustum(sides, below, above, height)
     used = np.unique(faces)
-    found = mass_properties(Mesh(*_merge_vertices(vertices[used] + far, np.searchsorted(used, faces))))
+    properties = mass_properties(Mesh(*_merge_vertices(vertices[used] + distant, np.searchsorted(used, faces))))
     z = Polynomial([0.0, 1.0])
     radius = below + (above - below) / height * z
     area, moment = polygon_properties(sides, 1.0)
@@ -51,19 +55,19 @@ def test_scan_volume_centre_and_inertia_of_frusta(sides, below, above):
     centre = (area * radius**2 * z).integ()(height) / volume
     across = (moment * radius**4).integ()(height) / volume
     along_z = (area * radius**2 * (z - centre) ** 2).integ()(height) / volume
-    assert found.volume == pytest.approx(volume, rel=EXACT * 1e3)
-    assert found.centre - far == pytest.approx((0.0, 0.0, centre), abs=1e-12)
+    assert properties.volume == pytest.approx(volume, rel=EXACT * 1e3)
+    assert properties.centre - distant == pytest.approx((0.0, 0.0, centre), abs=1e-12)
     expected = np.diag([across + along_z, across + along_z, 2.0 * across])
-    assert found.gyration == pytest.approx(expected, abs=1e-12)
-    assert found.pieces == 1
+    assert properties.gyration == pytest.approx(expected, abs=1e-12)
+    assert properties.pieces == 1
 
 
 def _merge_vertices(vertices, faces):
     """Return a mesh without the doubled apex of a cone."""
     _, first, number = np.unique(vertices.round(12), axis=0, return_index=True, return_inverse=True)
     corners = number.reshape(-1)[faces]
-    whole = [len(set(face)) == 3 for face in corners.tolist()]
-    return vertices[first], corners[whole]
+    full = [len(set(face)) == 3 for face in corners.tolist()]
+    return vertices[first], corners[full]
 
 
 @pytest.fixture(scope="module")
@@ -76,11 +80,11 @@ def box_scan(tmp_path_factory):
 def test_scanned_box_equals_block_along_its_sides(box_scan):
     """+x is east: towards 90 degrees it is as wide as along x. Mass, centre, inertia, alpha and p are those of the rectangle."""
     for azimuth, width, depth in ((90.0, 0.3, 0.4), (0.0, 0.4, 0.3), (270.0, 0.3, 0.4), (180.0, 0.4, 0.3)):
-        found, expected = box_scan.body.block_toward(azimuth), Block(width, 0.9, depth, density=2000.0)
-        assert found.total_mass == pytest.approx(expected.total_mass, rel=EXACT)
+        result, expected = box_scan.body.block_toward(azimuth), Block(width, 0.9, depth, density=2000.0)
+        assert result.total_mass == pytest.approx(expected.total_mass, rel=EXACT)
         for name in ("arms", "radii", "slendernesses", "corner_inertias", "lever_ratios", "restitutions"):
-            assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=EXACT), name
-        assert found.frequency_parameter() == pytest.approx(math.sqrt(3.0 * 9.80665 / (4.0 * math.hypot(width, 0.9) / 2.0)), rel=EXACT)
+            assert getattr(result, name) == pytest.approx(getattr(expected, name), rel=EXACT), name
+        assert result.frequency_parameter() == pytest.approx(math.sqrt(3.0 * 9.80665 / (4.0 * math.hypot(width, 0.9) / 2.0)), rel=EXACT)
 
 
 @pytest.mark.parametrize("sides", [4, 12])
@@ -96,18 +100,18 @@ def test_scanned_box_pivots_at_corner_between_sides(box_scan, azimuth):
     """The arm is the reach of the corner, the inertia that about a level line: of a box turned by an angle both are closed forms."""
     angle = math.radians(90.0 - azimuth)
     c, s = abs(math.cos(angle)), abs(math.sin(angle))
-    found = box_scan.body.block_toward(azimuth)
+    result = box_scan.body.block_toward(azimuth)
     mass = 2000.0 * 0.3 * 0.4 * 0.9
-    assert found.arms == pytest.approx(((0.3 * c + 0.4 * s) / 2,) * 2, rel=EXACT)
+    assert result.arms == pytest.approx(((0.3 * c + 0.4 * s) / 2,) * 2, rel=EXACT)
     about_y, about_x = mass * (0.3**2 + 0.9**2) / 12, mass * (0.4**2 + 0.9**2) / 12
-    assert found.gyration_squared * mass == pytest.approx(about_y * c * c + about_x * s * s, rel=1e-11)
+    assert result.gyration_squared * mass == pytest.approx(about_y * c * c + about_x * s * s, rel=1e-11)
 
 
 def test_facing_rotates_the_body(box_scan):
     """A body that faces 40 degrees further round meets a motion that comes 40 degrees further round as it did before."""
-    turned = ScannedBody(**{**vars_of(box_scan.body), "facing": 130.0})
+    rotated = ScannedBody(**{**vars_of(box_scan.body), "facing": 130.0})
     for azimuth in (0.0, 17.0, 200.0):
-        before, after = box_scan.body.block_toward(azimuth), turned.block_toward(azimuth + 40.0)
+        before, after = box_scan.body.block_toward(azimuth), rotated.block_toward(azimuth + 40.0)
         assert before.arms == pytest.approx(after.arms, rel=1e-12) and before.gyration_squared == pytest.approx(
             after.gyration_squared, rel=1e-12
         )
@@ -135,8 +139,8 @@ def test_scan_accepts_any_up_axis(up, tmp_path):
     shuffled = np.empty_like(vertices)
     for column, (axis, sign) in enumerate(AXIS_ROTATIONS[up]):
         shuffled[:, axis] = sign * vertices[:, column]
-    kept = 1 if up.endswith("x") else 0
-    assert AXIS_ROTATIONS[up][kept] == (kept, 1)
+    remaining = 1 if up.endswith("x") else 0
+    assert AXIS_ROTATIONS[up][remaining] == (remaining, 1)
     body = scan_body(write_ply(tmp_path / "body.ply", shuffled, faces), up=up).body
     upright = scan_body(write_ply(tmp_path / "upright.ply", vertices, faces)).body
     assert body.centre == pytest.approx(upright.centre, abs=1e-12)
@@ -147,12 +151,12 @@ def test_tilted_scan_is_levelled(tmp_path, box_scan):
     """A box turned by 4 degrees about any level axis rests on its base again: the same body, and the turn is told."""
     vertices, faces = box(0.3, 0.4, 0.9)
     leaning = vertices @ Rotation.from_rotvec(math.radians(4.0) * np.array([math.cos(1.0), math.sin(1.0), 0.0])).as_matrix().T
-    found = scan_body(write_ply(tmp_path / "leaning.ply", leaning + 0.7, faces), density=2000.0)
-    assert math.degrees(found.tilt) == pytest.approx(4.0, abs=1e-6)
-    assert found.body.height == pytest.approx(0.9, abs=1e-8)
-    assert min_slenderness(found.body)[0] == pytest.approx(min_slenderness(box_scan.body)[0], abs=1e-7)
-    assert np.array(found.body.inertia) == pytest.approx(np.array(box_scan.body.inertia), abs=1e-6)
-    assert any("turned by 4 degrees" in doubt for doubt in scan_qc_messages(found))
+    scan = scan_body(write_ply(tmp_path / "leaning.ply", leaning + 0.7, faces), density=2000.0)
+    assert math.degrees(scan.tilt) == pytest.approx(4.0, abs=1e-6)
+    assert scan.body.height == pytest.approx(0.9, abs=1e-8)
+    assert min_slenderness(scan.body)[0] == pytest.approx(min_slenderness(box_scan.body)[0], abs=1e-7)
+    assert np.array(scan.body.inertia) == pytest.approx(np.array(box_scan.body.inertia), abs=1e-6)
+    assert any("turned by 4 degrees" in doubt for doubt in scan_qc_messages(scan))
 
 
 def test_base_is_hull_of_contact_points(tmp_path):
@@ -160,8 +164,8 @@ def test_base_is_hull_of_contact_points(tmp_path):
     vertices, faces = box(0.3, 0.4, 0.9)
     vertices[8, 2] = 0.05  # the middle of the base
     assert scan_body(write_ply(tmp_path / "hollow.ply", vertices, faces)).touching == 4
-    found = scan_body(write_ply(tmp_path / "hollow.ply", vertices, faces)).body
-    assert found.block_toward(90.0).arms == pytest.approx((0.15, 0.15), rel=1e-9)
+    scan = scan_body(write_ply(tmp_path / "hollow.ply", vertices, faces)).body
+    assert scan.block_toward(90.0).arms == pytest.approx((0.15, 0.15), rel=1e-9)
 
 
 def test_base_tolerance_selects_contact_points(tmp_path):
@@ -180,7 +184,7 @@ def test_irregular_scan_equals_grid_integration():
     towards, faces = make_boulder.sphere(40_000)
     points = make_boulder.bumpy(towards)
     points[:, 2] = np.maximum(points[:, 2], -make_boulder.CUT)
-    found = mass_properties(Mesh(points, faces))
+    properties = mass_properties(Mesh(points, faces))
     spacing = 0.011
     axes = [np.arange(low + spacing / 2, high, spacing) for low, high in zip(points.min(axis=0), points.max(axis=0), strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -188,10 +192,10 @@ def test_irregular_scan_equals_grid_integration():
     away = np.linalg.norm(scaled, axis=1)
     surface = np.linalg.norm(make_boulder.bumpy(scaled / away[:, None]) / make_boulder.EGG, axis=1)
     inside = grid[(away <= surface) & (grid[:, 2] >= -make_boulder.CUT)]
-    assert found.volume == pytest.approx(len(inside) * spacing**3, rel=5e-3)
-    assert found.centre == pytest.approx(inside.mean(axis=0), abs=1e-3)
+    assert properties.volume == pytest.approx(len(inside) * spacing**3, rel=5e-3)
+    assert properties.centre == pytest.approx(inside.mean(axis=0), abs=1e-3)
     spread = np.cov(inside.T, bias=True)
-    assert found.gyration == pytest.approx(np.trace(spread) * np.eye(3) - spread, abs=5e-3 * np.trace(spread))
+    assert properties.gyration == pytest.approx(np.trace(spread) * np.eye(3) - spread, abs=5e-3 * np.trace(spread))
 
 
 @pytest.mark.parametrize("sides", [3, 4, 7, 60])
@@ -208,9 +212,9 @@ def test_inset_of_regular_polygon_is_similar(sides):
 
 def test_hull_keeps_extreme_points():
     """Of random points all corners; of a round base as many as a millionth of its size asks for, not one for each of its vertices."""
-    dice = np.random.default_rng(3)
+    rng = np.random.default_rng(3)
     towards = np.stack([np.cos(np.arange(0.0, 6.3, 0.01)), np.sin(np.arange(0.0, 6.3, 0.01))])
-    for points in (dice.normal(size=(20_000, 2)), dice.uniform(size=(300, 2))):
+    for points in (rng.normal(size=(20_000, 2)), rng.uniform(size=(300, 2))):
         assert (convex_hull(points) @ towards).max(axis=0) == pytest.approx((points @ towards).max(axis=0), abs=1e-6 * np.ptp(points))
     turn = np.linspace(0.0, 2.0 * np.pi, 30_000, endpoint=False)
     ring = np.column_stack([np.cos(turn), np.sin(turn)])
@@ -244,36 +248,36 @@ def test_opposite_azimuth_swaps_sides_of_block():
     """Arms and restitutions change sides, mass and inertia stay: the two sides of a boulder differ."""
     body = load_scan("boulder")
     for azimuth in (0.0, 33.0, 120.0):
-        here, behind = body.block_toward(azimuth), body.block_toward(azimuth + 180.0)
-        assert here.arms == pytest.approx(behind.arms[::-1], rel=1e-12)
-        assert here.restitutions == pytest.approx(behind.restitutions[::-1], rel=1e-12)
-        assert abs(here.arms[0] - here.arms[1]) > 1e-3
+        first, behind = body.block_toward(azimuth), body.block_toward(azimuth + 180.0)
+        assert first.arms == pytest.approx(behind.arms[::-1], rel=1e-12)
+        assert first.restitutions == pytest.approx(behind.restitutions[::-1], rel=1e-12)
+        assert abs(first.arms[0] - first.arms[1]) > 1e-3
 
 
 def test_azimuth_table_equals_blocks():
     """b, alpha, R, I_O, p and the threshold towards an azimuth are those of the block's right corner; the least alpha is among them."""
     body = load_scan("boulder").with_wear(0.05)
     around = scan_azimuths(body, step_deg=1.0)
-    for each in around[::37]:
-        block = body.block_toward(each.azimuth_deg)
-        assert (each.arm_m, each.slenderness_rad, each.radius_m) == (block.arms[0], block.slendernesses[0], block.radii[0])
-        inertia = block.gyration_squared * body.mass + body.mass * each.radius_m**2
-        assert each.pivot_inertia_kg_m2 == pytest.approx(inertia, rel=1e-12)
-        assert each.frequency_parameter_rad_s == pytest.approx(math.sqrt(body.mass * 9.80665 * each.radius_m / inertia), rel=1e-12)
-        assert each.threshold_m_s2 == pytest.approx(9.80665 * math.tan(each.slenderness_rad), rel=1e-12)
+    for item in around[::37]:
+        block = body.block_toward(item.azimuth_deg)
+        assert (item.arm_m, item.slenderness_rad, item.radius_m) == (block.arms[0], block.slendernesses[0], block.radii[0])
+        inertia = block.gyration_squared * body.mass + body.mass * item.radius_m**2
+        assert item.pivot_inertia_kg_m2 == pytest.approx(inertia, rel=1e-12)
+        assert item.frequency_parameter_rad_s == pytest.approx(math.sqrt(body.mass * 9.80665 * item.radius_m / inertia), rel=1e-12)
+        assert item.threshold_m_s2 == pytest.approx(9.80665 * math.tan(item.slenderness_rad), rel=1e-12)
     alpha, azimuth = min_slenderness(body)
-    least = min(around, key=lambda each: each.slenderness_rad)
-    assert alpha <= least.slenderness_rad == pytest.approx(alpha, rel=1e-3)
-    assert abs(azimuth - least.azimuth_deg) <= 1.0
+    minimum = min(around, key=lambda entry: entry.slenderness_rad)
+    assert alpha <= minimum.slenderness_rad == pytest.approx(alpha, rel=1e-3)
+    assert abs(azimuth - minimum.azimuth_deg) <= 1.0
 
 
 def test_scanned_box_rocks_like_block(box_scan):
     """Towards its side, a scanned box leans, hits and falls as the block of its sizes, at the same times."""
     pulse = Motion.from_arrays(4.2 * np.sin(np.linspace(0.0, 4.0 * np.pi, 401)), 0.01, name="90")
     scanned = solve_rock(block_for_motion(box_scan.body, pulse), pulse).outcome
-    drawn = solve_rock(Block(0.3, 0.9), pulse).outcome
-    assert scanned.rocks and scanned.impacts == drawn.impacts
-    assert scanned.max_rotation_rad == pytest.approx(drawn.max_rotation_rad, rel=1e-9)
+    result = solve_rock(Block(0.3, 0.9), pulse).outcome
+    assert scanned.rocks and scanned.impacts == result.impacts
+    assert scanned.max_rotation_rad == pytest.approx(result.max_rotation_rad, rel=1e-9)
 
 
 def test_scan_requires_azimuth_of_motion():
@@ -290,12 +294,12 @@ def test_scan_requires_azimuth_of_motion():
 
 def test_scan_body_round_trips_through_toml(tmp_path):
     """Every number of the TOML keeps its digits; a name with quotation marks is one."""
-    found = scan_body("boulder.ply", inset=EdgeWear(length_m=0.004), facing=12.5, body_name='a "stone" \\ 石')
+    scan = scan_body("boulder.ply", inset=EdgeWear(length_m=0.004), facing=12.5, body_name='a "stone" \\ 石')
     path = tmp_path / "stone.toml"
-    path.write_text(scan_to_toml(found), encoding="utf-8")
-    assert load_scan(path) == found.body
-    written = (make_boulder.sample_directory() / "boulder.toml").read_text(encoding="utf-8")
-    now, then = ("".join(text.splitlines(keepends=True)[1:20]) for text in (scan_to_toml(scan_body("boulder.ply")), written))
+    path.write_text(scan_to_toml(scan), encoding="utf-8")
+    assert load_scan(path) == scan.body
+    content = (make_boulder.sample_directory() / "boulder.toml").read_text(encoding="utf-8")
+    now, then = ("".join(text.splitlines(keepends=True)[1:20]) for text in (scan_to_toml(scan_body("boulder.ply")), content))
     assert NUMBER.sub("#", now) == NUMBER.sub("#", then)
     # sums of thousands of facets end otherwise in the last digits on another processor
     np.testing.assert_allclose([float(n) for n in NUMBER.findall(now)], [float(n) for n in NUMBER.findall(then)], rtol=1e-9, atol=1e-12)
@@ -304,31 +308,31 @@ def test_scan_body_round_trips_through_toml(tmp_path):
 BOX = box(0.3, 0.4, 0.9)
 
 
-def faulty_box(what):
+def faulty_box(quantity):
     """Return vertices and faces of a box of which something is wrong."""
     vertices, faces = BOX[0].copy(), BOX[1].copy()
-    if what == "open":
+    if quantity == "open":
         return vertices, faces[1:]
-    if what == "inside out":
+    if quantity == "inside out":
         return vertices, faces[:, ::-1]
-    if what == "in part":
+    if quantity == "in part":
         faces[3] = faces[3, ::-1]
-    if what == "meets itself":
+    if quantity == "meets itself":
         return np.concatenate([vertices, vertices[:2], [[0.3, 0.4, 0.9]]]), np.concatenate([faces, np.array([[0, 1, 12], [1, 0, 12]])])
-    if what == "flat":
+    if quantity == "flat":
         vertices[:, 2] *= 1e-11
-    if what == "a point":
+    if quantity == "a point":
         vertices, faces = frustum(12, 0.3, 0.0, 0.8)
         vertices = vertices * (1.0, -1.0, -1.0)
-    if what == "top-heavy":
+    if quantity == "top-heavy":
         vertices, faces = frustum(12, 0.1, 0.1, 0.8, sheared=(0.25, 0.0))
-    if what == "not a number":
+    if quantity == "not a number":
         vertices[3, 1] = np.nan
     return vertices, faces
 
 
 @pytest.mark.parametrize(
-    ("what", "told_so"),
+    ("quantity", "told_so"),
     [
         ("open", "is open: 3 edges"),
         ("inside out", "is inside out: its triangles are clockwise"),
@@ -340,10 +344,10 @@ def faulty_box(what):
         ("not a number", "not finite numbers"),
     ],
 )
-def test_scan_rejects_invalid_surfaces(what, told_so, tmp_path):
+def test_scan_rejects_invalid_surfaces(quantity, told_so, tmp_path):
     """Open, inside out, non-manifold, flat, on its tip, top-heavy, not finite: each in its own sentence."""
     with pytest.raises(BodyError, match=told_so):
-        scan_body(write_ply(tmp_path / "wrong.ply", *faulty_box(what)))
+        scan_body(write_ply(tmp_path / "wrong.ply", *faulty_box(quantity)))
 
 
 @pytest.mark.parametrize(
@@ -388,7 +392,7 @@ def test_scan_flags_implausible_unit():
 
 
 def test_scan_without_inset_warns_of_sharp_edges():
-    """What two granite rocks taught is said where no inset is given, and not where one is."""
+    """A scan without an inset warns of sharp edges (two granite rocks); with one it does not."""
     assert "1.4 to 2.5 times" in " ".join(scan_qc_messages(scan_body("boulder.ply")))
     assert list(scan_qc_messages(scan_body("boulder.ply", inset=0.1))) == []
 
@@ -396,10 +400,10 @@ def test_scan_without_inset_warns_of_sharp_edges():
 def test_scan_reports_separate_surfaces(tmp_path):
     """A second surface that does not touch the first is told of; a vertex that no triangle has is none."""
     vertices, faces = BOX
-    both = write_ply(
+    target = write_ply(
         tmp_path / "both.ply", np.concatenate([vertices, vertices * 0.1 + (0.0, 0.0, 1.2)]), np.concatenate([faces, faces + 10])
     )
-    assert any("2 separate surfaces" in doubt for doubt in scan_qc_messages(scan_body(both)))
+    assert any("2 separate surfaces" in doubt for doubt in scan_qc_messages(scan_body(target)))
     stray = write_ply(tmp_path / "stray.ply", np.concatenate([vertices, [[0.0, 0.0, -9.0]]]), faces)
     assert scan_body(stray).body.height == pytest.approx(0.9, rel=EXACT)
 
@@ -430,8 +434,21 @@ def test_scan_body_toml_rejects_errors(change, told_so):
 
 
 def test_functions_of_one_block_reject_scan():
-    """Where one block for all directions is needed, a scan is refused with what is missing."""
+    """Functions that need one block for all directions reject a scan and name the missing azimuth."""
     with pytest.raises(BodyError, match="dimensions depend on the azimuth"):
         load_block("boulder")
     with pytest.raises(BodyError, match='kind must be "scan"'):
         load_scan("gravestone")
+
+
+def test_read_body_toml_names_the_command_that_makes_a_body_of_a_mesh():
+    with pytest.raises(BodyError, match="is a mesh: give the TOML file that `seisblock body` writes"):
+        read_body_toml(sample_directory() / "boulder.ply")
+
+
+def test_contact_summary_compares_contacts_with_the_support_polygon():
+    """A rough scan stands on three vertices, whose triangle lies nearer to the centre of gravity than the polygon within the tolerance."""
+    text = str(contact_summary(convex_body(load_scan("boulder"))))
+    assert "stands on 3 of 1097 hull vertices" in text
+    assert re.search(r"0\.3 cm \(contacts\), 7\.9 cm \(support polygon", text), text
+    assert "stands on 4 of 8 hull vertices" in str(contact_summary(ConvexBody.box(0.3, 0.3, 0.9)))

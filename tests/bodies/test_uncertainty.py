@@ -10,6 +10,7 @@ from click.testing import CliRunner
 from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import within
 from seisblock.bodies.factory import load_block
+from seisblock.bodies.kinds import KINDS, kind_to_toml, of_kind
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.cli import main
 from seisblock.core.errors import BodyError
@@ -18,12 +19,25 @@ from seisblock.models.respond.solve import solve_respond
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
 from seisblock.studies.fragility.run import run_fragility
-from seisblock.studies.respond.probability import ParameterVariation, perturbed_respond_params, respond_probability
-from seisblock.studies.rocking.perturb import Spread, draw_samples, perturb
+from seisblock.studies.respond.probability import respond_probability
+from seisblock.studies.rocking.perturb import perturb
+from seisblock.studies.sampling import ParameterVariation, draw_samples, sample_respond_params
 
 PULSE = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.01)
 FRIDGE = ParameterRanges(width_m=(0.6, 0.75), height_m=(1.6, 1.9), inset_m=(0.02, 0.06), mu=(0.15, 0.5))
 FILE = 'kind = "block"\nname = "thing"\nwidth = "60cm"\nheight = "1.8m"\nmu = 0.3\n[ranges]\n'
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_printed_prior_read_back_gives_same_samples(kind, tmp_path):
+    """The file of ``body --kind`` through ``--block``: sizes, median, ranges and each sample of a body equal to the last bit."""
+    options, draws = RespondOptions(mu=0.5), draw_samples(20, 0)
+    for width, height in ((0.24, 0.72), (0.0303 * 8, 2.0 / 3.0), (0.6018728872087648, 1.3257509453327574)):
+        (tmp_path / "body.toml").write_text(kind_to_toml(kind, width, height), encoding="utf-8")
+        loaded, expected = load_block(tmp_path / "body.toml"), of_kind(Block(width, height), kind)
+        assert (loaded.width, loaded.height, loaded.inset, loaded.ranges) == (width, height, expected.inset, expected.ranges)
+        one, other = (sample_respond_params(block, ParameterVariation(), draws, options) for block in (loaded, expected))
+        assert np.array_equal(one.blocks.columns, other.blocks.columns)
 
 
 def test_bundled_body_has_ranges_in_metres():
@@ -38,9 +52,9 @@ def test_bundled_body_has_ranges_in_metres():
 def test_range_draws_have_nominal_value_as_median():
     """Uniform draws of either half lie evenly between the own value and the end; one outside the range widens it."""
     draws = np.linspace(-1.0, 1.0, 2001)
-    for own in (0.2, 0.4, 0.7):
-        values = within((0.2, 0.7), own, draws)
-        assert (values.min(), np.median(values), values.max()) == pytest.approx((0.2, own, 0.7))
+    for body_value in (0.2, 0.4, 0.7):
+        values = within((0.2, 0.7), body_value, draws)
+        assert (values.min(), np.median(values), values.max()) == pytest.approx((0.2, body_value, 0.7))
         assert np.ptp(np.diff(values[:1001])) < 1e-12 and np.ptp(np.diff(values[1000:])) < 1e-12
     assert within((0.2, 0.7), 0.9, np.array([-1.0, 0.0, 1.0])).tolist() == pytest.approx([0.2, 0.9, 0.9])
 
@@ -49,19 +63,19 @@ def test_samples_of_respond_draw_edges_and_friction_from_the_ranges_but_not_size
     """Width and height of this body are known, vary by 5 % independently of each other, and are the medians."""
     body = load_block("refrigerator")
     draws = draw_samples(4000, 1)
-    some = perturbed_respond_params(body, ParameterVariation(), draws, options=RespondOptions(mu=0.3))
-    heights = 2 * some.blocks.centre
-    widths = np.sqrt(12 * some.blocks.gyration_squared - heights**2)
-    insets = (widths / 2 - some.blocks.right) / widths * body.width
-    for values, (low, high), own in (
+    subset = sample_respond_params(body, ParameterVariation(), draws, options=RespondOptions(mu=0.3))
+    heights = 2 * subset.blocks.centre
+    widths = np.sqrt(12 * subset.blocks.gyration_squared - heights**2)
+    insets = (widths / 2 - subset.blocks.right) / widths * body.width
+    for values, (low, high), body_value in (
         (heights, (0.95 * 1.8, 1.05 * 1.8), 1.8),
         (widths, (0.95 * 0.65, 1.05 * 0.65), 0.65),
         (insets, FRIDGE.inset_m, 0.04),
-        (some.mu, FRIDGE.mu, 0.3),
+        (subset.mu, FRIDGE.mu, 0.3),
     ):
         margin = 0.01 * (high - low)
         assert low - 1e-9 <= values.min() < low + margin and high - margin < values.max() <= high + 1e-9
-        assert np.median(values) == pytest.approx(own, abs=0.02 * (high - low))
+        assert np.median(values) == pytest.approx(body_value, abs=0.02 * (high - low))
     assert abs(np.corrcoef(heights, widths)[0, 1]) < 0.05
 
 
@@ -71,12 +85,12 @@ def test_zero_tolerance_keeps_body_in_all_samples():
     same = replace(block, ranges=ParameterRanges(inset_m=(0.0, 0.02), mu=(0.2, 0.9)))
     for size in (0.8, 1.0, 1.5):
         motion = Motion.from_arrays(size * PULSE.horizontal, 0.01)
-        still = Spread(size=0.0, slenderness=0.0, inset=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
-        found = perturb(same, motion, 5, spread=still)
-        assert found.overturned == 5 * rock_verdict(block, motion).overturned
+        still = ParameterVariation(size=0.0, slenderness=0.0, inset=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+        result = perturb(same, motion, 5, spread=still)
+        assert result.overturned == 5 * rock_verdict(block, motion).overturned
         nothing = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
-        one = respond_probability(same, motion, options=RespondOptions(mu=0.5), runs=3, versions=nothing)
-        assert one.overturned == float(solve_respond(block, motion, mu=0.5).outcome.overturned) and one.ranges == same.ranges
+        first = respond_probability(same, motion, options=RespondOptions(mu=0.5), runs=3, versions=nothing)
+        assert first.overturned == float(solve_respond(block, motion, mu=0.5).outcome.overturned) and first.ranges == same.ranges
 
 
 def test_given_values_have_no_range():
@@ -84,12 +98,12 @@ def test_given_values_have_no_range():
     body = load_block("refrigerator")
     assert body.with_wear(0.05).ranges == ParameterRanges(width_m=FRIDGE.width_m, height_m=FRIDGE.height_m, mu=FRIDGE.mu)
     line = ["respond", "elcentro_1940_ns.csv", "--block", "refrigerator", "--runs", "2", "--json", "--quiet"]
-    for more, inset, mu in (
+    for extra, inset, mu in (
         ([], [0.02, 0.06], [0.15, 0.5]),
         (["--mu", "0.4"], [0.02, 0.06], None),
         (["--vary-inset", "0.2"], None, [0.15, 0.5]),
     ):
-        ranges = json.loads(CliRunner().invoke(main, [*line, *more]).stdout)["results"][0]["probability"]["ranges"]
+        ranges = json.loads(CliRunner().invoke(main, [*line, *extra]).stdout)["results"][0]["probability"]["ranges"]
         assert (ranges["inset_m"], ranges["mu"], ranges["width_m"], ranges["height_m"]) == (inset, mu, None, None)
 
 
@@ -106,14 +120,14 @@ def test_output_states_origin_of_samples():
     for words, expected in (
         (
             ("rock", *record, "refrigerator", "--perturb", "3", "--details"),
-            "samples with size ±5 %, slenderness ±5 %, edge wear 3 % to 9 % of the width,",
+            "samples with width and height ±5 %, edge wear 3 % to 9 % of the width,",
         ),
         (
             ("respond", *record, "refrigerator", "--runs", "3"),
             "Parameter variation only (model error not included): width and height ±5 %, "
             "edge wear 3 % to 9 % of the width, mu 0.15 to 0.5, restitution ±0.1,",
         ),
-        (("rock", *record, "bookcase", "--perturb", "3", "--details"), "slenderness ±5 %, sharp edges, restitution ±5 %"),
+        (("rock", *record, "bookcase", "--perturb", "3", "--details"), "width and height ±5 %, sharp edges, restitution ±10 %"),
         (
             ("respond", *record, "bookcase", "--runs", "3"),
             "Parameter variation only (model error not included): width and height ±5 %, sharp edges, mu 0.2 to 0.7,",

@@ -1,4 +1,4 @@
-"""What cannot be meant: one sentence and an exit code, no answer."""
+"""Meaningless input: one sentence and an exit code, no answer."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ def run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
     def run(*words):
-        done = CliRunner().invoke(main, [str(word) for word in words])
-        assert done.exception is None or isinstance(done.exception, SystemExit)
-        assert done.exit_code == 0 or done.stdout == ""
-        return done.exit_code, done.stderr.strip()
+        result = CliRunner().invoke(main, [str(word) for word in words])
+        assert result.exception is None or isinstance(result.exception, SystemExit)
+        assert result.exit_code == 0 or result.stdout == ""
+        return result.exit_code, result.stderr.strip()
 
     return run
 
@@ -37,26 +37,44 @@ def run(tmp_path, monkeypatch):
 @pytest.mark.parametrize("command", ["rock", "respond", "criteria", "measure", "uplift"])
 def test_commands_reject_implausible_size_and_suggest_units(run, command):
     """A unit that was forgotten: refused by every command that takes sizes, with the ways to write it."""
-    code, said = run(command, "--width", "24", "--height", "62")
-    assert code == 2 and "width 24 has no unit and exceeds 20 m: write 24cm, 24mm or 24m" in said
+    code, message = run(command, "--width", "24", "--height", "62")
+    assert code == 2 and "width 24 has no unit and exceeds 20 m: write 24cm, 24mm or 24m" in message
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("rock --width 20cm,24 --height 1", "width 24 has no unit and exceeds 20 m: write 24cm, 24mm or 24m"),
+        ("respond --width 1:24parsec:1 --height 1 --mu 0.5", "width '24parsec': unknown unit 'parsec'; use one of"),
+        ("spectrum --sizes 24parsec --lang ja", "長さ '24parsec' の単位 'parsec' は使えません。"),
+        ("respond --block gravestone --moved 24 --lang ja", "長さ 24 は単位がなく、20 m を超えています。"),
+    ],
+)
+def test_length_of_any_option_or_list_is_rejected_in_the_language(run, words, says):
+    """A value of a list as a single one; an option's own name is never translated as a term of something else."""
+    code, message = run(*words.split())
+    assert code == 2 and says in message
 
 
 def test_files_with_implausible_size_are_rejected(run, tmp_path):
     """A body and a cemetery, too."""
     (tmp_path / "body.toml").write_text('kind = "block"\nwidth = 24\nheight = 62\n')
     (tmp_path / "stones.csv").write_text("height,width\n62,24\n")
-    code, said = run("rock", "--block", "body.toml")
-    assert code == 3 and said.startswith("seisblock: body.toml: width 24 has no unit and exceeds 20 m")
-    code, said = run("overturn-rate", "--cemetery", "stones.csv")
-    assert code == 3 and "is not plausible for a gravestone (read as metres without a unit" in said
+    code, message = run("rock", "--block", "body.toml")
+    assert code == 3 and message.startswith("seisblock: body.toml: width 24 has no unit and exceeds 20 m")
+    code, message = run("overturn-rate", "--cemetery", "stones.csv")
+    assert (
+        code == 3
+        and "height of 62 m is not plausible (read as metres without a unit: name the column, for example, height (cm))" in message
+    )
 
 
 def test_ambiguous_column_t_is_rejected(run, tmp_path):
     """T may be the time: said, not guessed."""
     name = table(tmp_path / "ltv.csv", "t,L,T,V", 100, 200, 50)
-    code, said = run("measure", name)
-    assert code == 3 and "'T' may be time or the transverse direction" in said
-    assert len(said.splitlines()) == 1
+    code, message = run("measure", name)
+    assert code == 3 and "'T' may be time or the transverse direction" in message
+    assert len(message.splitlines()) == 1
 
 
 @pytest.mark.parametrize(
@@ -64,15 +82,15 @@ def test_ambiguous_column_t_is_rejected(run, tmp_path):
 )
 def test_duplicate_columns_are_rejected(run, tmp_path, header):
     """Or of one meaning: keep one of them."""
-    code, said = run("slide", table(tmp_path / "two.csv", header, *[100] * header.count("gal")), "--mu", "0.2")
-    assert code == 3 and "several columns for" in said and said.endswith("keep one")
+    code, message = run("slide", table(tmp_path / "two.csv", header, *[100] * header.count("gal")), "--mu", "0.2")
+    assert code == 3 and "several columns for" in message and message.endswith("keep one")
 
 
 def test_one_way_sliding_with_contact_loss_is_rejected(run, tmp_path):
     """Not defined in the air: refused with its time, where the ground falls away at more than g."""
     name = table(tmp_path / "strong.csv", "time,NS (gal),EW (gal),UD (gal)", 1200, 2400, 3600)
-    code, said = run("slide", name, "--mu", "0.2", "--one-way", "--quiet")
-    assert code == 3 and "contact lost at 0.420 s (normal force zero)" in said.splitlines()[-1]
+    code, message = run("slide", name, "--mu", "0.2", "--one-way", "--quiet")
+    assert code == 3 and "contact lost at 0.420 s (normal force zero)" in message.splitlines()[-1]
     assert run("slide", name, "--mu", "0.2", "--one-way", "--no-vertical", "--quiet")[0] == 0
 
 
@@ -81,12 +99,12 @@ def test_repeated_file_is_rejected_but_equal_names_are_not(run, tmp_path):
     header = "time,NS (gal),EW (gal),UD (gal)"
     for i in range(20):
         table(tmp_path / f"d{i}" / "rec.csv", header, 100 + i, 50, 20)
-    code, said = run("measure", *["d0/rec.csv"] * 20)
-    assert (code, said) == (3, "seisblock: d0/rec.csv is given 20 times; give each record once")
+    code, message = run("measure", *["d0/rec.csv"] * 20)
+    assert (code, message) == (3, "seisblock: d0/rec.csv is given 20 times; give each record once")
     assert run("measure", "d0/rec.csv", "./d0/rec.csv")[0] == 3
     assert run("measure", "-", "-")[0] == 3
-    done = CliRunner().invoke(main, ["measure", "--quiet", *(f"d{i}/rec.csv" for i in range(20))])
-    assert done.exit_code == 0 and all(f"d{i}/rec.csv  start" in done.stdout for i in range(20))
+    result = CliRunner().invoke(main, ["measure", "--quiet", *(f"d{i}/rec.csv" for i in range(20))])
+    assert result.exit_code == 0 and all(f"d{i}/rec.csv  start" in result.stdout for i in range(20))
 
 
 FOREIGN = {
@@ -113,12 +131,12 @@ def test_component_azimuth_uses_azimuths_of_record(tmp_path, header, azimuths):
     table(tmp_path / "rec.csv", header, 100, 60, 20)
     record = read(tmp_path / "rec.csv")
     assert {c.code: c.azimuth_deg for c in record.components} == azimuths
-    known = [(c.azimuth_deg, c.acceleration) for c in record.horizontals if c.azimuth_deg is not None]
-    if not known:
+    reference = [(c.azimuth_deg, c.acceleration) for c in record.horizontals if c.azimuth_deg is not None]
+    if not reference:
         with pytest.raises(ComponentError, match="of known azimuth"):
             motion_of(record, "37")
         return
-    expected = sum(row * np.cos(np.radians(37.0 - azimuth)) for azimuth, row in known)
+    expected = sum(row * np.cos(np.radians(37.0 - azimuth)) for azimuth, row in reference)
     np.testing.assert_allclose(motion_of(record, "37").acceleration[0], expected, atol=1e-12)
 
 
@@ -134,5 +152,5 @@ def test_channels_without_vertical_are_rejected(tmp_path):
 
 def test_component_rejects_invalid_azimuth(run, tmp_path):
     """400 degrees, or a value where a name belongs."""
-    code, said = run("measure", table(tmp_path / "rec.csv", "time,400 (gal),130 (gal),UD (gal)", 100, 60, 20))
-    assert code == 3 and "column name '400 (gal)' is not an azimuth" in said
+    code, message = run("measure", table(tmp_path / "rec.csv", "time,400 (gal),130 (gal),UD (gal)", 100, 60, 20))
+    assert code == 3 and "column name '400 (gal)' is not an azimuth" in message

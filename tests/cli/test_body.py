@@ -7,6 +7,9 @@ import sys
 import pytest
 from click.testing import CliRunner
 
+from seisblock.bodies.block import Block
+from seisblock.bodies.factory import load_block
+from seisblock.bodies.kinds import KINDS, of_kind
 from seisblock.bodies.scan.scan import scan_body
 from seisblock.bodies.scan.toml import load_scan
 from seisblock.cli import main
@@ -32,36 +35,36 @@ def document(*words):
 def stone(tmp_path_factory):
     """Return the file of a body that the command wrote: edges 10 mm in, +x to the azimuth of 30 degrees."""
     path = tmp_path_factory.mktemp("stone") / "stone.toml"
-    done = run("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--name", "stone", "--out", path)
-    assert done.exit_code == 0 and f"wrote {path}" in done.stderr.replace("\n", "")
+    result = run("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--name", "stone", "--out", path)
+    assert result.exit_code == 0 and f"wrote {path}" in result.stderr.replace("\n", "")
     return path
 
 
 def test_body_file_equals_library_body(stone):
     """The file holds the body of the library call, to the last digit."""
-    found = scan_body("boulder.ply", facing=30.0, body_name="stone").body
-    written = load_scan(stone)
-    assert written.inset_m == 0.01
-    assert written == found.with_wear(written.inset)
+    scan = scan_body("boulder.ply", facing=30.0, body_name="stone").body
+    output = load_scan(stone)
+    assert output.inset_m == 0.01
+    assert output == scan.with_wear(output.inset)
 
 
 def test_body_document_csv_and_rock_agree(stone, tmp_path):
     """Alpha and p of each azimuth in JSON, in the CSV, and of the block that rock solves."""
     rows = tmp_path / "azimuths.csv"
-    told = document("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--step", "90", "--csv", tmp_path / "unused.csv")
+    answer = document("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--step", "90", "--csv", tmp_path / "unused.csv")
     assert run("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--step", "90", "--csv", rows).exit_code == 0
     with rows.open() as stream:
-        written = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
-    (result,) = told["results"]
-    assert written == result["directions"]
-    assert [each["azimuth_deg"] for each in written] == [0.0, 90.0, 180.0, 270.0]
+        values = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
+    (result,) = answer["results"]
+    assert values == result["directions"]
+    assert [item["azimuth_deg"] for item in values] == [0.0, 90.0, 180.0, 270.0]
     rocked = document("rock", *SHORT, "--component", "EW", "--block", stone)
     block = rocked["parameters"]["block"]
     sides = block["slenderness_right_rad"], block["slenderness_left_rad"]
-    assert sides == pytest.approx([written[1]["slenderness_rad"], written[3]["slenderness_rad"]], rel=1e-12)
+    assert sides == pytest.approx([values[1]["slenderness_rad"], values[3]["slenderness_rad"]], rel=1e-12)
     assert rocked["results"][0]["slenderness_rad"] == pytest.approx(min(sides), rel=1e-12)
     assert rocked["results"][0]["frequency_parameter_rad_s"] == pytest.approx(
-        written[1 if sides[0] <= sides[1] else 3]["frequency_parameter_rad_s"], rel=1e-12
+        values[1 if sides[0] <= sides[1] else 3]["frequency_parameter_rad_s"], rel=1e-12
     )
 
 
@@ -71,13 +74,13 @@ def test_each_component_uses_arms_of_its_azimuth(stone):
     expected = [min(body.block_toward(azimuth).slendernesses) for azimuth in (0.0, 90.0)]
     rocked = document("rock", *SHORT, "--block", stone)["results"]
     assert [min(r["block"]["slenderness_right_rad"], r["block"]["slenderness_left_rad"]) for r in rocked] == pytest.approx(expected)
-    stood = document("respond", *SHORT, "--block", stone, "--mu", "0.4", "--runs", "0")["results"]
+    stood = document("respond", *SHORT, "--block", stone, "--planar", "--mu", "0.4", "--runs", "0")["results"]
     assert [r["block"] for r in stood] == [r["block"] for r in rocked]
     cards = document("criteria", *SHORT, "--block", stone)["results"]
     assert [card["simulated"]["slenderness_rad"] for card in cards] == pytest.approx(expected)
     assert "alpha (rad)" in run("rock", *SHORT, "--block", stone).stdout
-    one = document("rock", *SHORT, "--block", "gravestone")["results"][0]
-    assert "block" not in one and "directions" not in one
+    first = document("rock", *SHORT, "--block", "gravestone")["results"][0]
+    assert "block" not in first and "directions" not in first
 
 
 def test_inset_option_replaces_inset_of_file(stone):
@@ -94,35 +97,37 @@ def test_batch_of_scan_equals_single_commands(solver, stone, tmp_path):
     """A row of the table is the answer of the solver's own command, for a file and for a row of a table that names it."""
     table, bodies = tmp_path / "table.csv", tmp_path / "bodies.csv"
     bodies.write_text(f"name,body,mu,inset\nas told,{stone},0.4,\nworn,{stone},0.4,2cm\n", encoding="utf-8")
-    done = run("batch", *SHORT, "--bodies", bodies, "--solver", solver, "--component", "EW,37", "--out", table)
-    assert done.exit_code == 0, done.output
+    result = run("batch", *SHORT, "--bodies", bodies, "--solver", solver, "--component", "EW,37", "--out", table)
+    assert result.exit_code == 0, result.output
     with table.open() as stream:
         rows = list(csv.DictReader(stream))
     assert len(rows) == 4 and not any(row["failure"] for row in rows)
-    friction = ["--mu", "0.4", "--runs", "0"] if solver == "respond" else []
+    friction = ["--planar", "--mu", "0.4", "--runs", "0"] if solver == "respond" else []
     for row in rows:
         inset = ["--inset", "2cm"] if row["body"] == "worn" else []
-        (told,) = document(solver, *SHORT, "--component", row["component"], "--block", stone, *inset, *friction)["results"]
+        (component_result,) = document(solver, *SHORT, "--component", row["component"], "--block", stone, *inset, *friction)["results"]
         for key in ("max_rotation_rad", "max_rotation_ratio", "impacts"):
-            assert float(row[key]) == told[key], key
+            assert float(row[key]) == component_result[key], key
 
 
 def test_batch_of_scan_without_azimuth_fails_its_row_only(stone, tmp_path):
     """A record of which nobody knows how it lay: one sentence in its row, and of the single command."""
     record = tmp_path / "record.csv"
     record.write_text("time,a (gal)\n" + "".join(f"{0.01 * i:.2f},{i % 7}\n" for i in range(200)), encoding="utf-8")
-    done = run("rock", record, "--block", stone)
-    assert done.exit_code == 3 and "depend on the azimuth" in done.stderr.replace("\n", " ")
+    result = run("rock", record, "--block", stone)
+    assert result.exit_code == 3 and "depend on the azimuth" in result.stderr.replace("\n", " ")
 
 
+@pytest.mark.slow
 def test_all_azimuths_of_scan_lists_worst_first(stone, tmp_path):
     """The worst direction is the one that is answered, and stands first among all of them; the rose is drawn."""
-    for words in (("rock",), ("respond", "--mu", "0.4", "--runs", "0")):
+    for words in (("rock",), ("respond", "--planar", "--mu", "0.4", "--runs", "0"), ("respond", "--mu", "0.4", "--runs", "0")):
         figure = tmp_path / f"{words[0]}.svg"
         line = (words[0], *SHORT, *words[1:], "--block", stone, "--component", "all-azimuths", "--scale", "0.5")
         (result,) = document(*line, "--plot", figure)["results"]
         directions = result["directions"]
-        assert len(directions) == 36 and float(result["component"]) == directions[0]["azimuth_deg"]
+        in_space = words[0] == "respond" and "--planar" not in words
+        assert len(directions) == (72 if in_space else 36) and float(result["component"]) == directions[0]["azimuth_deg"]
         assert result["overturned"] is directions[0]["overturned"]
         assert "maximum displacement (cm)" in figure.read_text() if words[0] == "respond" else figure.exists()
         table = run(*line, "--details").stdout
@@ -133,12 +138,12 @@ def test_body_refuses_to_overwrite_scan(tmp_path):
     """R1: a table of azimuths cannot take the place of the scan; a body needs the name of a body; a folder is none."""
     path = write_stl(tmp_path / "box.stl", *box(0.3, 0.4, 0.9))
     before = path.read_bytes()
-    done = run("body", path, "--csv", path)
-    assert done.exit_code == 3 and "would overwrite the input file" in done.stderr.replace("\n", " ")
+    result = run("body", path, "--csv", path)
+    assert result.exit_code == 3 and "would overwrite the input file" in result.stderr.replace("\n", " ")
     link = tmp_path / "box.toml"
     link.symlink_to(path)
-    done = run("body", path, "--out", link)
-    assert done.exit_code == 3 and "would overwrite the input file" in done.stderr.replace("\n", " ")
+    result = run("body", path, "--out", link)
+    assert result.exit_code == 3 and "would overwrite the input file" in result.stderr.replace("\n", " ")
     assert path.read_bytes() == before
     assert run("body", path, "--out", tmp_path / "none" / "box.toml").exit_code == 3
     assert "must end in .toml" in run("body", path, "--out", tmp_path / "box.stl").stderr
@@ -147,16 +152,16 @@ def test_body_refuses_to_overwrite_scan(tmp_path):
 def test_body_without_trimesh_names_extra(monkeypatch):
     """One sentence, and no traceback; the body that was written is read without it."""
     monkeypatch.setitem(sys.modules, "trimesh", None)
-    done = run("body", "boulder.ply")
-    assert done.exit_code == 3 and "pip install 'seisblock[scan]'" in done.stderr
+    result = run("body", "boulder.ply")
+    assert result.exit_code == 3 and "pip install 'seisblock[scan]'" in result.stderr
     assert run("rock", *SHORT, "--block", "boulder").exit_code == 0
 
 
 def test_scan_rejects_unsupported_solvers():
     """One block for all directions, a jump, a pile: each says why not."""
     for words in (("report", "-o", "x.html", "--body", "boulder"), ("jump", "--block", "boulder"), ("stack", "--stones", "boulder")):
-        done = run(*words)
-        assert done.exit_code == 3 and "scan" in done.stderr, words
+        result = run(*words)
+        assert result.exit_code == 3 and "scan" in result.stderr, words
     assert sample_path("boulder.ply").exists()
 
 
@@ -174,9 +179,31 @@ def test_fit_starts_from_block_of_shaken_azimuth(stone):
 
 def test_fit_of_scan_requires_azimuth(stone):
     """Without an azimuth a scan is refused, with one a block is."""
-    for words, told in (
+    for words, text in (
         ((stone,), "dimensions depend on the azimuth"),
         (("gravestone", "--azimuth", "3"), "has the same dimensions in all azimuths"),
     ):
-        done = run(*FIT, "--block", *words)
-        assert done.exit_code == 3 and told in " ".join(done.stderr.split())
+        result = run(*FIT, "--block", *words)
+        assert result.exit_code == 3 and text in " ".join(result.stderr.split())
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_body_of_kind_is_the_body_of_its_sizes(kind, tmp_path):
+    """The printed file is the body that --kind with the sizes gives, prior included; an edited range replaces the prior."""
+    result = CliRunner().invoke(main, ["body", "--kind", kind, "--width", "24cm", "--height", "72cm"])
+    path = tmp_path / "stone.toml"
+    path.write_text(result.stdout, encoding="utf-8")
+    block, expected = load_block(path), of_kind(Block(0.24, 0.72), kind)
+    assert (block.width, block.height, block.inset) == (0.24, 0.72, pytest.approx(expected.inset))
+    assert (block.ranges is None) == (expected.ranges is None)
+    if expected.ranges is not None:
+        assert block.ranges.inset_m == pytest.approx(expected.ranges.inset_m)
+        path.write_text(result.stdout.replace('"10%"', '"20%"'), encoding="utf-8")
+        assert load_block(path).ranges.inset_m[1] == pytest.approx(0.048)
+
+
+def test_body_requires_scan_or_kind():
+    """Neither, both, or a kind without sizes: a usage error."""
+    sizes = ["--kind", "statue", "--width", "1", "--height", "2"]
+    for words in ([], ["boulder.ply", "--kind", "statue"], ["--kind", "statue"], [*sizes, "--up", "z"]):
+        assert CliRunner().invoke(main, ["body", *words]).exit_code == 2

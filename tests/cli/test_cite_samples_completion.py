@@ -1,4 +1,4 @@
-"""What goes with an answer: its papers, the bundled files, the shell's completion."""
+"""Papers of an answer, bundled files, and shell completion."""
 
 import hashlib
 import json
@@ -16,8 +16,8 @@ from seisblock.cli import COMMANDS, main
 from seisblock.references import REFERENCES, cited_commands, command_papers
 from seisblock.samples import list_samples, sample_directory
 
-OF_THE_PROGRAM = {"validate", "cite", "samples", "completion", "report", "schema"}
-"""Commands whose answers rest on no paper of their own."""
+OF_THE_PROGRAM = {"app", "validate", "paper", "cite", "samples", "completion", "report", "schema", "fetch"}
+"""Commands whose answers rest on no paper of their own; those of a case or an item are in its document."""
 
 
 def run(*words):
@@ -60,8 +60,8 @@ def test_samples_copy_is_identical_with_notice(tmp_path):
     for sample in list_samples():
         assert hashlib.sha256((directory / sample.name).read_bytes()).hexdigest() == sample.sha256
     assert "MIT License" in (directory / "seisblock-samples-NOTICE.txt").read_text()
-    again = run("samples", "--copy", directory)
-    assert again.exit_code == 0 and "already" in again.stderr
+    repeat = run("samples", "--copy", directory)
+    assert repeat.exit_code == 0 and "already" in repeat.stderr
 
 
 def test_samples_copy_name_copies_sample_or_set(tmp_path, monkeypatch):
@@ -73,14 +73,14 @@ def test_samples_copy_name_copies_sample_or_set(tmp_path, monkeypatch):
 
 def test_samples_copy_refuses_to_overwrite_without_option(tmp_path):
     """A file of other content is refused before anything is written; --overwrite replaces it."""
-    mine = tmp_path / "synthetic_jma.csv"
-    mine.write_text("my own")
+    computed = tmp_path / "synthetic_jma.csv"
+    computed.write_text("my own")
     refused = run("samples", "--copy", tmp_path)
     assert refused.exit_code == 3 and "--overwrite" in refused.stderr
-    assert mine.read_text() == "my own" and list(tmp_path.iterdir()) == [mine]
+    assert computed.read_text() == "my own" and list(tmp_path.iterdir()) == [computed]
     assert run("samples", "--copy", tmp_path, "--overwrite").exit_code == 0
-    assert mine.read_bytes() == (sample_directory() / "synthetic_jma.csv").read_bytes()
-    assert run("samples", "--copy", mine).exit_code == 3
+    assert computed.read_bytes() == (sample_directory() / "synthetic_jma.csv").read_bytes()
+    assert run("samples", "--copy", computed).exit_code == 3
     assert run("samples", "nosuch").exit_code == 3
 
 
@@ -93,7 +93,7 @@ def test_completion_prints_script_per_shell(shell):
 
 
 def test_shell_completes_commands_options_and_samples():
-    """What the script asks back: a command's name, an option, a sample's name or a file."""
+    """The script completes names of commands, options, samples and files."""
 
     def complete(words, index):
         environment = {**os.environ, "_SEISBLOCK_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(index)}
@@ -138,7 +138,7 @@ def test_bash_completes_names_and_files(words, offered, tmp_path):
     )
     home = os.pathsep.join(filter(None, (str(Path(seisblock.__file__).parents[1]), os.environ.get("PYTHONPATH"))))
     environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": home}
-    done = subprocess.run(
+    result = subprocess.run(
         [BASH, "--norc", "-c", "\n".join(lines)], env=environment, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=600
     )
-    assert set(offered) <= set(done.stdout.split()), done.stderr
+    assert set(offered) <= set(result.stdout.split()), result.stderr

@@ -18,13 +18,14 @@ def run(tmp_path, monkeypatch):
 
 
 def test_criteria_document_has_rows_and_simulated_outcome(run):
-    """Each row has threshold, demand, verdict and its formula's place; the simulated outcome is that of rock."""
-    found = json.loads(run("--width", "24cm", "--height", "72cm", "--json").stdout)
+    """Each row has threshold, demand, verdict and its formula's place; the simulated outcome is that of rock, without its samples."""
+    output = json.loads(run("--width", "24cm", "--height", "72cm", "--json").stdout)
     rocked = json.loads(CliRunner().invoke(main, ["rock", "--width", "24cm", "--height", "72cm", "--json"]).stdout)
-    assert found["schema"] == "seisblock/criteria/1"
-    for result, simulated in zip(found["results"], rocked["results"], strict=True):
+    assert output["schema"] == "seisblock/criteria/1"
+    for result, simulated in zip(output["results"], rocked["results"], strict=True):
         assert result["component"] == simulated.pop("component")
         assert result["shaking"] == simulated.pop("shaking")
+        assert "class" in simulated.pop("assessment")
         assert result["simulated"] == simulated
         for row in result["criteria"]:
             assert row["overturns"] == (row["demand"] > row["threshold"])
@@ -71,11 +72,11 @@ def test_criteria_reports_bad_input_in_one_sentence(run, words):
 
 def test_criteria_states_full_response_of_body():
     """In one sentence and in the document: with the friction given, the body's own, or that of feet that hold."""
-    shown = CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", "--width", "24cm", "--height", "72cm", "--mu", "0.2", "--quiet"])
-    assert "NS, full response (respond, friction 0.2): slides" in " ".join(shown.stdout.split())
-    for words, mu, known in ((("--block", "gravestone"), 0.438, True), (("--width", "24cm", "--height", "72cm"), 0.8 * 4 / 3, False)):
-        found = json.loads(CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", *words, "--json"]).stdout)["results"][0]["respond"]
-        assert found["mu"] == pytest.approx(mu) and found["friction_known"] is known
-        alone = CliRunner().invoke(main, ["respond", "elcentro_1940_ns", *words, "--mu", repr(found["mu"]), "--runs", "0", "--json"])
-        outcome = json.loads(alone.stdout)["results"][0]
-        assert {key: found[key] for key in ("overturned", "slip_path_m")} == {key: outcome[key] for key in ("overturned", "slip_path_m")}
+    result = CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", "--width", "24cm", "--height", "72cm", "--mu", "0.2", "--quiet"])
+    assert "NS, full response (respond, friction 0.2): slides" in " ".join(result.stdout.split())
+    for words, mu, expected in ((("--block", "gravestone"), 0.438, True), (("--width", "24cm", "--height", "72cm"), 0.8 * 4 / 3, False)):
+        output = json.loads(CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", *words, "--json"]).stdout)["results"][0]["respond"]
+        assert output["mu"] == pytest.approx(mu) and output["friction_known"] is expected
+        single = CliRunner().invoke(main, ["respond", "elcentro_1940_ns", *words, "--mu", repr(output["mu"]), "--runs", "0", "--json"])
+        outcome = json.loads(single.stdout)["results"][0]
+        assert {key: output[key] for key in ("overturned", "slip_path_m")} == {key: outcome[key] for key in ("overturned", "slip_path_m")}

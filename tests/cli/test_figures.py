@@ -12,8 +12,8 @@ from seisblock.cli import main
 def draw_figure(tmp_path):
     def draw(*words):
         path = tmp_path / "f.png"
-        told = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2", "--plot", str(path), *words])
-        return told, struct.unpack(">II", path.read_bytes()[16:24]) if path.exists() else None
+        result = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2", "--plot", str(path), *words])
+        return result, struct.unpack(">II", path.read_bytes()[16:24]) if path.exists() else None
 
     return draw
 
@@ -30,9 +30,9 @@ def draw_figure(tmp_path):
 )
 def test_size_and_dpi_set_figure_dimensions(draw_figure, words, pixels):
     """200 dots per inch unless told otherwise; centimetres unless a unit is named."""
-    told, found = draw_figure(*words)
-    assert told.exit_code == 0, told.output
-    assert found == pytest.approx(pixels, abs=1)
+    text, result = draw_figure(*words)
+    assert text.exit_code == 0, text.output
+    assert result == pytest.approx(pixels, abs=1)
 
 
 @pytest.mark.parametrize(
@@ -49,9 +49,9 @@ def test_size_and_dpi_set_figure_dimensions(draw_figure, words, pixels):
 )
 def test_size_rejects_invalid_and_huge_values(draw_figure, words, message, code):
     """A size that is none, and one that is larger than a picture can be."""
-    told, found = draw_figure(*words)
-    assert told.exit_code == code and found is None
-    assert message in " ".join(told.stderr.split()) and "Traceback" not in told.output
+    text, result = draw_figure(*words)
+    assert text.exit_code == code and result is None
+    assert message in " ".join(text.stderr.split()) and "Traceback" not in text.output
 
 
 def test_title_is_plain_text_and_requires_plot(tmp_path):
@@ -59,15 +59,15 @@ def test_title_is_plain_text_and_requires_plot(tmp_path):
     path = tmp_path / "f.svg"
     words = ["slide", "elcentro_1940_ns", "--mu", "0.2", "--title", "墓石 $x_1$ & co"]
     assert CliRunner().invoke(main, [*words, "--plot", str(path)]).exit_code == 0
-    drawn = path.read_text(encoding="utf-8")
-    assert "x_1" in drawn and "elcentro" not in drawn
-    told = CliRunner().invoke(main, words)
-    assert told.exit_code == 3 and "require --plot" in told.stderr
+    text = path.read_text(encoding="utf-8")
+    assert "x_1" in text and "elcentro" not in text
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 3 and "require --plot" in result.stderr
 
 
 def test_figure_options_exist_only_where_effective():
     """F6: what has no film has no option for one; what --csv holds is said where it is no time history."""
     for command, film, history in (("slide", True, True), ("uplift", True, True), ("criteria", False, False), ("spectrum", False, False)):
-        told = " ".join(CliRunner().invoke(main, [command, "--help-all"]).output.split())
-        assert ("--animate" in told) == film and ("--slow " in told) == film
-        assert ("Write the time histories" in told) == history
+        text = " ".join(CliRunner().invoke(main, [command, "--help-all"]).output.split())
+        assert ("--animate" in text) == film and ("--slow " in text) == film
+        assert ("Write the time histories" in text) == history

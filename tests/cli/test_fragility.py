@@ -15,7 +15,7 @@ from seisblock.records import Motion
 from seisblock.studies.fragility.estimate import IDA, FitOptions
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.results import Fragility
-from seisblock.studies.fragility.warnings import fragility_warnings
+from seisblock.studies.fragility.run import fragility_warnings
 from tests.motions import synthetic_suite
 
 SHELF = ("--width", "30cm", "--height", "1.2", "--solver", "rock", "--im", "pgv", "--dt", "0.02", "--bootstrap", "20")
@@ -24,11 +24,11 @@ SHELF = ("--width", "30cm", "--height", "1.2", "--solver", "rock", "--im", "pgv"
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with twelve records, and a file that is none."""
-    made = tmp_path_factory.mktemp("suite")
+    target = tmp_path_factory.mktemp("suite")
     for record in synthetic_suite(12, seconds=15.0):
         lines = "\n".join(repr(float(value)) for value in record.components[0].acceleration)
-        (made / f"{record.station}.csv").write_text(f"EW (m/s2)\n{lines}\n")
-    return made
+        (target / f"{record.station}.csv").write_text(f"EW (m/s2)\n{lines}\n")
+    return target
 
 
 def run(*words):
@@ -51,17 +51,17 @@ def test_fragility_prints_median_then_table(folder):
     assert first.startswith("block 0.3 x 1.2 m, overturning: median PGV ") and "kine, beta 0." in first
     assert "12 records, 12 motions" in answer.stdout
     assert "times that of the comparison curve (40.0 kine)" in " ".join(answer.stdout.split())
-    told = document(folder, *SHELF, "--levels", "10:150:10", "--compare", "40,0.4")
-    assert [level["im"] for level in told["results"][0]["levels"]] == pytest.approx([0.1 * n for n in range(1, 16)])
-    assert told["parameters"]["compare"] == {"median": 0.4, "beta": 0.4, "unit": "m/s"}
-    assert told["results"][0]["unit"] == "m/s" and told["results"][0]["records"] == 12
+    content = document(folder, *SHELF, "--levels", "10:150:10", "--compare", "40,0.4")
+    assert [level["im"] for level in content["results"][0]["levels"]] == pytest.approx([0.1 * n for n in range(1, 16)])
+    assert content["parameters"]["compare"] == {"median": 0.4, "beta": 0.4, "unit": "m/s"}
+    assert content["results"][0]["unit"] == "m/s" and content["results"][0]["records"] == 12
 
 
 def test_fragility_block_equals_bodies_row(folder):
     """--block, --bodies and a table give one curve."""
     listed = document(folder, "--bodies", "gravestone", *SHELF[4:], "--levels", "5:200:15")["results"]
-    named = document(folder, "--block", "gravestone", *SHELF[4:], "--levels", "5:200:15")["results"]
-    assert listed == named
+    results = document(folder, "--block", "gravestone", *SHELF[4:], "--levels", "5:200:15")["results"]
+    assert listed == results
 
 
 def test_fragility_writes_csv_figure_pelicun_and_openquake(folder, tmp_path):
@@ -69,7 +69,7 @@ def test_fragility_writes_csv_figure_pelicun_and_openquake(folder, tmp_path):
     names = {
         option: tmp_path / name for option, name in (("--csv", "a.csv"), ("--plot", "b.png"), ("--pelicun", "c.csv"), ("--nrml", "d.xml"))
     }
-    answer = run(folder, *SHELF, "--levels", "10:150:10", *(each for pair in names.items() for each in pair))
+    answer = run(folder, *SHELF, "--levels", "10:150:10", *(item for pair in names.items() for item in pair))
     assert answer.exit_code == 0, answer.stderr
     with names["--csv"].open() as stream:
         rows = list(csv.DictReader(stream))
@@ -116,16 +116,16 @@ def test_fragility_translates_bodies_and_limits(folder):
     assert answer.exit_code == 0, answer.stderr
     assert answer.stdout.startswith("墓石、転倒：")
     warned = Fragility("gravestone", "slip=0.05m", "pgv", "m/s", IDA, 3, 3, 0, 0, 0, (), problem="none")
-    own = replace(warned, body="{odd}\x1b[31m", limit="overturn")
+    body_value = replace(warned, body="{odd}\x1b[31m", limit="overturn")
     rules = FitOptions(IDA, (intensity_measure("pgv"),), 0.95, 0, 0)
     with use_locale("ja"):
-        told = [gettext(note) for note in fragility_warnings([warned, own], [np.ones(3)], rules)]
-    assert any(text.startswith("墓石、変位 0.05 m：") for text in told)
-    assert any(text.startswith("{odd}\\x1b[31m、転倒：") for text in told)
+        curves = [gettext(note) for note in fragility_warnings([warned, body_value], [np.ones(3)], rules)]
+    assert any(text.startswith("墓石、変位 0.05 m：") for text in curves)
+    assert any(text.startswith("{odd}\\x1b[31m、転倒：") for text in curves)
 
 
 def test_fragility_translates_unnamed_block():
-    """What the solvers warn of names it as tables do."""
+    """Warnings of the solvers name the block as tables do."""
     motion = Motion.from_arrays(np.zeros(10), 0.01)
     with use_locale("ja"):
         assert gettext(solve_rock(Block(1.0, 0.5), motion).warnings[0]).startswith("物体：")

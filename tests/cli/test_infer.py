@@ -17,6 +17,9 @@ from seisblock.criteria.gravestones import overturning_level
 from seisblock.studies.survey import estimate
 
 ESTIMATE = {
+    "jma_class_by_rule",
+    "each_stone",
+    "contingency",
     "stones",
     "fallen",
     "standing",
@@ -67,39 +70,39 @@ def survey(tmp_path):
 def test_infer_from_counts_gives_pga_and_pgv(document):
     """35 of 100 stones like Aoyama's: PGA and PGV for a frequency, near Kofu's 725 gal, the contour beside it; the bias adds to it."""
     bare = ("--bias", 0, "--stone-error", 0.1, "--frequency-error", 0)
-    found = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75, *bare)
+    answer = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75, *bare)
     (biased,) = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75, *bare[2:])["results"]
-    assert biased["pga_m_s2"] == pytest.approx(math.exp(0.33) * found["results"][0]["pga_m_s2"], rel=1e-6)
-    assert found["schema"] == "seisblock/infer/2"
-    (each,) = found["results"]
-    assert set(each) == ESTIMATE
-    low, high = each["pga_interval_m_s2"]
+    assert biased["pga_m_s2"] == pytest.approx(math.exp(0.35) * answer["results"][0]["pga_m_s2"], rel=1e-6)
+    assert answer["schema"] == "seisblock/infer/2"
+    (result,) = answer["results"]
+    assert set(result) == ESTIMATE
+    low, high = result["pga_interval_m_s2"]
     assert low < 7.25 < high
-    assert each["pga_m_s2"] == pytest.approx(7.25, rel=0.05)
-    assert each["pgv_m_s"] == pytest.approx(each["pga_m_s2"] / (2 * math.pi * 2.75))
-    assert (each["fallen"], each["standing"], each["stones"]) == (35, 65, "not reinforced")
-    assert [point["frequency_hz"] for point in found["contour"]][::25] == [0.5, 3.0]
-    assert found["parameters"]["common_error_ln_pga"] == 0.3
-    assert found["citations"] == ["Furukawa2009", "Midorikawa1999"]
+    assert result["pga_m_s2"] == pytest.approx(7.25, rel=0.05)
+    assert result["pgv_m_s"] == pytest.approx(result["pga_m_s2"] / (2 * math.pi * 2.75))
+    assert (result["fallen"], result["standing"], result["stones"]) == (35, 65, "not reinforced")
+    assert [point["frequency_hz"] for point in answer["contour"]][::25] == [0.5, 3.0]
+    assert answer["parameters"]["common_error_ln_pga"] == 0.24
+    assert answer["citations"] == ["Furukawa2009"]
 
 
 def test_infer_without_frequency_averages_band(document):
     """The band is averaged first, then come the paper's six frequencies."""
-    found = document("--rate", "35/100", "--cemetery", "aoyama.csv")["results"]
-    assert [each["frequency_hz"] for each in found] == [None, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0]
+    results = document("--rate", "35/100", "--cemetery", "aoyama.csv")["results"]
+    assert [item["frequency_hz"] for item in results] == [None, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0]
 
 
 def test_infer_from_observed_stones_separates_reinforced(run, document, survey, no_contour):
     """Marked stones are judged one by one, reinforced ones apart, unknown ones left out."""
-    found = document("--cemetery", survey, "--frequency", 2)
-    assert [each["stones"] for each in found["results"]] == ["not reinforced", "reinforced", "all"]
-    assert [each["fallen"] + each["standing"] for each in found["results"]] == [90, 10, 100]
-    assert found["parameters"]["unknown_stones"] == 1
+    answer = document("--cemetery", survey, "--frequency", 2)
+    assert [result["stones"] for result in answer["results"]] == ["not reinforced", "reinforced", "all"]
+    assert [result["fallen"] + result["standing"] for result in answer["results"]] == [90, 10, 100]
+    assert answer["parameters"]["unknown_stones"] == 1
     plain = document("--cemetery", survey, "--frequency", 2, "--bias", 0, "--stone-error", 0.05)["results"][0]
     assert plain["pga_m_s2"] == pytest.approx(float(overturning_level(2.0)) / 2.84, rel=0.05)
-    shown = run("--cemetery", survey, "--frequency", 2).stdout
-    assert "survey, stones not reinforced: 32 of 90 overturned" in shown
-    assert "JMA intensity" in shown
+    output = run("--cemetery", survey, "--frequency", 2).stdout
+    assert "survey, stones not reinforced: 32 of 90 overturned" in output
+    assert "JMA intensity" in output
 
 
 def test_infer_none_or_all_fallen_gives_bound(run, document):
@@ -109,44 +112,48 @@ def test_infer_none_or_all_fallen_gives_bound(run, document):
     assert none["pga_m_s2"] is None
     assert none["pga_interval_m_s2"][0] is None
     assert none["jma_classes"][0] is None
-    found = run("--rate", "50/50", "--cemetery", "aoyama.csv", "--frequency", 1)
-    assert "lower bound only (all overturned)" in found.stderr
-    assert "at least" in found.stdout
+    result = run("--rate", "50/50", "--cemetery", "aoyama.csv", "--frequency", 1)
+    assert "lower bound only (all overturned)" in result.stderr
+    assert "at least" in result.stdout
 
 
 def test_infer_from_sliding_lists_factors(run, document):
     """Each component of each candidate record is answered with its factors; one that never moves so far says how far it does."""
-    found = document("--slid", "0.35m", "--mu", 0.3, "synthetic_jma.csv", "elcentro_1940_ns.csv", "--steps", 60)
-    assert [(each["record_index"], each["component"]) for each in found["results"]] == [(0, "NS"), (0, "EW"), (1, "NS")]
-    for each in found["results"][:2]:
-        assert each["observed_m"] == 0.35
-        assert each["scale_factors"]
-        for factor in each["scale_factors"]:
+    answer = document("--slid", "0.35m", "--mu", 0.3, "synthetic_jma.csv", "elcentro_1940_ns.csv", "--steps", 60)
+    assert [(item["record_index"], item["component"]) for item in answer["results"]] == [(0, "NS"), (0, "EW"), (1, "NS")]
+    for result in answer["results"][:2]:
+        assert result["observed_m"] == 0.35
+        assert result["scale_factors"]
+        for factor in result["scale_factors"]:
             assert factor["displacement_m"] == pytest.approx(0.35, rel=1e-6)
-            assert factor["pga_m_s2"] == pytest.approx(factor["scale"] * each["pga_m_s2"])
-    assert found["results"][2]["scale_factors"] == []
-    assert found["citations"] == ["Fujino1978"]
-    told = run("--slid", "35cm", "--mu", 0.3, "elcentro_1940_ns.csv", "--steps", 60).stdout
-    assert "not reached by scale factors up to 3" in " ".join(told.split())
-    told = run("--slid", "5cm", "--mu", 0.2, "--component", "NS", "--steps", 60).stdout
-    assert "NS: slip of 5.0 cm at a scale factor of 0.635 (593.2 gal); unscaled record: 43.2 cm." in " ".join(told.split())
-    told = run("--slid", "5cm", "--mu", 0.2, "--component", "NS", "--steps", 60, "--no-vertical").stdout
-    assert "NS: slip of 5.0 cm at a scale factor of 0.612 (571.5 gal); unscaled record: 44.8 cm." in " ".join(told.split())
+            assert factor["pga_m_s2"] == pytest.approx(factor["scale"] * result["pga_m_s2"])
+    assert answer["results"][2]["scale_factors"] == []
+    assert answer["citations"] == ["Fujino1978"]
+    output = run("--slid", "35cm", "--mu", 0.3, "elcentro_1940_ns.csv", "--steps", 60).stdout
+    assert "not reached by scale factors up to 3" in " ".join(output.split())
+    output = run("--slid", "5cm", "--mu", 0.2, "--component", "NS", "--steps", 60).stdout
+    assert "NS: slip of 5.0 cm at a scale factor of 0.635 (593.2 gal); unscaled record: 43.2 cm." in " ".join(output.split())
+    output = run("--slid", "5cm", "--mu", 0.2, "--component", "NS", "--steps", 60, "--no-vertical").stdout
+    assert "NS: slip of 5.0 cm at a scale factor of 0.612 (571.5 gal); unscaled record: 44.8 cm." in " ".join(output.split())
 
 
 def test_infer_from_jump_uses_bundled_block(document):
     """The bundled Chozu-sha is taken by name, and what the record does by itself is told beside the factors."""
-    (found,) = document("--jumped", "0.04m", "--block", "chozusha", "--component", "EW", "--steps", 60, "--limit", 1.5)["results"]
-    assert found["displacement_at_1_m"] == pytest.approx(0.2154, abs=1e-3)
-    assert found["scale_factors"]
-    (first,) = document("--jumped", "4cm", "--block", "chozusha", "--component", "EW", "--steps", 60, "--limit", 1.5, "--first")["results"]
+    (answer,) = document("--jumped", "0.04m", "--block", "chozusha", "--drop", 0, "--component", "EW", "--steps", 60, "--limit", 1.5)[
+        "results"
+    ]
+    assert answer["displacement_at_1_m"] == pytest.approx(0.2154, abs=1e-3)
+    assert answer["scale_factors"]
+    (first,) = document(
+        "--jumped", "4cm", "--block", "chozusha", "--drop", 0, "--component", "EW", "--steps", 60, "--limit", 1.5, "--first"
+    )["results"]
     assert first["displacement_at_1_m"] == pytest.approx(0.0461, abs=1e-3)
     assert any(0.8 < factor["scale"] < 1.0 and not factor["leaps"] for factor in first["scale_factors"])
 
 
 def test_infer_jump_continues_beyond_window(document):
     """The window says when rocking may start; the chain that starts in it is followed to its end (N4, N5)."""
-    words = ("--jumped", "10cm", "--component", "EW", "--steps", 20, "--limit", 1.5)
+    words = ("--jumped", "10cm", "--drop", 0, "--component", "EW", "--steps", 20, "--limit", 1.5)
     (inside,) = document(*words, "--window", "26.1:26.2")["results"]
     assert inside["displacement_at_1_m"] == pytest.approx(0.1743, abs=1e-3)
 
@@ -191,27 +198,27 @@ def test_infer_writes_csv_and_figure(run, survey):
     ],
 )
 def test_infer_reports_bad_input_in_one_sentence(run, tmp_path, words, code, message):
-    """What the user can mend is one sentence on stderr and an exit code, never a traceback."""
+    """Bad input gives one sentence on stderr and an exit code, no traceback."""
     (tmp_path / "odd.csv").write_text("H/B,fallen\n2.5,1\n2.6,半壊\n", encoding="utf-8")
-    found = run(*words)
-    assert found.exit_code == code
-    assert message in " ".join(found.stderr.split())
-    assert "Traceback" not in found.stderr
-    assert found.stdout == ""
+    result = run(*words)
+    assert result.exit_code == code
+    assert message in " ".join(result.stderr.split())
+    assert "Traceback" not in result.stderr
+    assert result.stdout == ""
 
 
 def test_infer_combines_several_cemeteries(run, document, survey, no_contour, tmp_path):
     """N10: each by itself, under its own name, and all together; none is dropped, and none counts double."""
-    other = tmp_path / "other.csv"
-    other.write_bytes(Path(survey).read_bytes())
-    found = document("--cemetery", survey, "--cemetery", other, "--frequency", 2)
-    shown = run("--cemetery", survey, "--cemetery", other, "--frequency", 2).stdout
-    assert "survey, stones not reinforced: 32 of 90 overturned" in shown and "other, stones not reinforced: 32 of 90 overturned" in shown
+    second = tmp_path / "other.csv"
+    second.write_bytes(Path(survey).read_bytes())
+    answer = document("--cemetery", survey, "--cemetery", second, "--frequency", 2)
+    output = run("--cemetery", survey, "--cemetery", second, "--frequency", 2).stdout
+    assert "survey, stones not reinforced: 32 of 90 overturned" in output and "other, stones not reinforced: 32 of 90 overturned" in output
     twice = run("--cemetery", survey, "--cemetery", survey, "--frequency", 2)
     assert twice.exit_code == 2 and "give each cemetery only once" in " ".join(twice.stderr.split())
-    assert len(found["results"]) == 6 and len(found["joint"]) == 1
-    assert found["joint"][0]["contradicts"] == []
-    assert found["parameters"]["stones"] == 2 * 101
+    assert len(answer["results"]) == 6 and len(answer["joint"]) == 1
+    assert answer["joint"][0]["contradicts"] == []
+    assert answer["parameters"]["stones"] == 2 * 101
 
 
 def test_infer_names_contradicting_cemeteries(document, tmp_path):
@@ -219,21 +226,21 @@ def test_infer_names_contradicting_cemeteries(document, tmp_path):
     for name, falls in (("one", "転倒"), ("other", "残存")):
         rows = ["H/B,fallen"] + [f"{1.6 + 0.05 * i},{falls if i not in (0, 49) else ('残存' if i == 0 else '転倒')}" for i in range(50)]
         (tmp_path / f"{name}.csv").write_text("\n".join(rows))
-    found = document("--cemetery", tmp_path / "one.csv", "--cemetery", tmp_path / "other.csv", "--frequency", 2)
-    assert any("one and other contradict each other" in text for text in found["warnings"])
+    answer = document("--cemetery", tmp_path / "one.csv", "--cemetery", tmp_path / "other.csv", "--frequency", 2)
+    assert any("one and other contradict each other" in text for text in answer["warnings"])
 
 
 def test_infer_notes_eq_10_for_reinforced_stones_only(document, tmp_path):
     """Two places without a dowel hear nothing of equation (10)."""
     for name in ("one", "other"):
         (tmp_path / f"{name}.csv").write_text("\n".join(["H/B,fallen"] + [f"{1.5 + 0.1 * i},{int(i > 12)}" for i in range(30)]))
-    found = document("--cemetery", tmp_path / "one.csv", "--cemetery", tmp_path / "other.csv", "--frequency", 2)
-    assert not any("reinforced stones: (10)" in text for text in found["warnings"])
+    answer = document("--cemetery", tmp_path / "one.csv", "--cemetery", tmp_path / "other.csv", "--frequency", 2)
+    assert not any("reinforced stones: (10)" in text for text in answer["warnings"])
 
 
 def test_infer_warns_of_impossible_survey(document, tmp_path):
     """N10: squat stones fell, slender ones stand."""
     rows = ["H/B,fallen"] + [f"{1.3 + 0.03 * i},1" for i in range(30)] + [f"{3.5 + 0.05 * i},0" for i in range(30)]
     (tmp_path / "odd.csv").write_text("\n".join(rows))
-    found = document("--cemetery", tmp_path / "odd.csv", "--frequency", 2)
-    assert any("survey inconsistent with the criterion" in text for text in found["warnings"])
+    answer = document("--cemetery", tmp_path / "odd.csv", "--frequency", 2)
+    assert any("survey inconsistent with the criterion" in text for text in answer["warnings"])

@@ -6,6 +6,7 @@ import csv
 import json
 import shutil
 from importlib import resources
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -33,6 +34,13 @@ CHAIN_KEYS = {
 }
 
 
+FREE = ("--drop", 0, "--tenon", 0)
+"""The Chozu-sha without its drop and its tenons."""
+
+SAMPLE_NOTE = "Record: synthetic_jma.csv (bundled, synthetic); none given."
+"""First line where no record was given."""
+
+
 def run(*arguments):
     return CliRunner().invoke(main, ["jump", *map(str, arguments)])
 
@@ -44,10 +52,10 @@ def answer(*arguments):
 
 
 def test_jump_without_record_uses_sample():
-    """Without RECORD the sample answers, and stderr says so."""
+    """Without RECORD the sample answers, and the first line says so."""
     result = run()
     assert result.exit_code == 0
-    assert "synthetic_jma.csv" in result.stderr
+    assert result.stdout.startswith(f"{SAMPLE_NOTE}\n")
     assert "rocking start (s)" in result.stdout
 
 
@@ -67,16 +75,16 @@ def test_jump_record_csv_works_as_documented(tmp_path, monkeypatch):
 
 def test_jump_of_knet_file_equals_bundle():
     """One file of the K-NET set stands for all three, and the bundle holds the same."""
-    one = answer("synthetic_knet.NS")
+    first = answer("synthetic_knet.NS")
     bundle = answer("synthetic_knet.knt.tar.gz")
-    assert [entry["component"] for entry in one["results"]] == ["NS", "EW"]
-    assert one["results"] == bundle["results"]
-    assert any("mean" in line for line in one["record"]["history"])
+    assert [entry["component"] for entry in first["results"]] == ["NS", "EW"]
+    assert first["results"] == bundle["results"]
+    assert any("mean" in line for line in first["record"]["history"])
 
 
 def test_jump_of_knet_equals_jma():
     """The same motion in two formats gives the same chain to the formats' resolution."""
-    jma, knet = (answer(name, "--component", "EW")["results"][0]["chains"][0] for name in ("synthetic_jma.csv", "synthetic_knet.EW"))
+    jma, knet = (answer(name, "--component", "EW", *FREE)["results"][0]["chains"][0] for name in ("synthetic_jma.csv", "synthetic_knet.EW"))
     assert jma["outcome"] == knet["outcome"] == "jumped"
     assert knet["impact_s"] == pytest.approx(jma["impact_s"], abs=1e-3)
 
@@ -114,30 +122,30 @@ def test_jump_solves_20_minute_record(tmp_path):
 def test_jump_windows_give_first_or_all_chains():
     """Each window gives its first chain with --first, as the paper's parts b and d, else every chain that starts in it."""
     words = ("--component", "EW", "--window", "25.5:26.09", "--window", "26.1:")
-    for more, starts in ((("--first",), [25.55, 26.14]), ((), [25.55, 26.14, 27.09])):
-        chains = answer(*words, *more)["results"][0]["chains"]
+    for extra, starts in ((("--first",), [25.55, 26.14]), ((), [25.55, 26.14, 27.09])):
+        chains = answer(*words, *extra)["results"][0]["chains"]
         assert [round(chain["rocking_start_s"], 2) for chain in chains] == starts
 
 
 def test_jump_totals_equal_sum_of_chains():
     """Totals, the landing rule and the friction it needs stand beside the chains; stdout begins with the final state (N4)."""
-    (found,) = answer("--component", "EW")["results"]
-    assert found["total_displacement_m"] == pytest.approx(sum(chain["total_displacement_m"] for chain in found["chains"]))
-    assert found["final_displacement_m"] == pytest.approx(found["total_displacement_m"])
-    assert (found["outcome"], found["landing"], len(found["chains"])) == ("jumped", "paper", 3)
-    assert found["friction_needed_at_landing"] == max(chain["friction_needed_at_landing"] for chain in found["chains"])
-    shown = " ".join(run("--component", "EW", "--details").stdout.split())
-    assert "EW: jumps 3 times in 3 chains of motion; final displacement 21.5 cm to +EW." in shown
-    assert "0.18 < b/h = 0.47 the feet slide before the block rocks. Landing without slip requires" in shown
-    assert "a friction coefficient of 3.64; the given one is 0.18." in shown
-    assert "as in the paper's model" in shown
+    (result,) = answer("--component", "EW", *FREE)["results"]
+    assert result["total_displacement_m"] == pytest.approx(sum(chain["total_displacement_m"] for chain in result["chains"]))
+    assert result["final_displacement_m"] == pytest.approx(result["total_displacement_m"])
+    assert (result["outcome"], result["landing"], len(result["chains"])) == ("jumped", "paper", 3)
+    assert result["friction_needed_at_landing"] == max(chain["friction_needed_at_landing"] for chain in result["chains"])
+    output = " ".join(run("--component", "EW", "--details", *FREE).stdout.split())
+    assert "EW: jumps 3 times in 3 chains of motion; final displacement 21.5 cm to +EW." in output
+    assert "0.18 < b/h = 0.47 the feet slide before the block rocks. Landing without slip requires" in output
+    assert "a friction coefficient of 3.64; the given one is 0.18." in output
+    assert "as in the paper's model" in output
 
 
 def test_jump_landing_friction_limits_demand():
     """--landing friction needs no more friction than there is, and says so in the same keys."""
-    (found,) = answer("--component", "EW", "--landing", "friction")["results"]
-    assert found["landing"] == "friction"
-    assert found["friction_needed_at_landing"] <= 0.17 + 1e-9
+    (result,) = answer("--component", "EW", "--landing", "friction")["results"]
+    assert result["landing"] == "friction"
+    assert result["friction_needed_at_landing"] <= 0.17 + 1e-9
 
 
 def test_jump_repeat_is_default_and_conflicts_with_first():
@@ -157,9 +165,64 @@ def test_jump_writes_history_and_figure(tmp_path):
 
 
 def test_jump_states_whether_foot_left_mortise():
-    """The sentence says whether the foot left its hole."""
-    assert "the tenon stays in the mortise" in " ".join(run("--tenon", "2cm", "--component", "NS").stdout.split())
-    assert "the tenon leaves the mortise" in " ".join(run("--tenon", "1mm", "--component", "EW").stdout.split())
+    """After the note of the record stands whether the feet left their mortises, and the place; a body that stays has not moved."""
+    remaining, left = (run("--tenon", tenon, "--component", "EW", "--details").stdout for tenon in ("2cm", "1mm"))
+    assert " ".join(remaining.split()).startswith(
+        f"{SAMPLE_NOTE} EW: the feet rise at most 1.46 cm, less than the tenons of 2.00 cm: stays in the mortises"
+    )
+    assert " ".join(left.split()).startswith(f"{SAMPLE_NOTE} EW: leaves the mortises, the feet rise")
+    assert "the tenon stays in the mortise" in " ".join(remaining.split())
+    assert "the tenon leaves the mortise" in " ".join(left.split())
+    (stays,), (leaves,) = (answer("--tenon", tenon, "--component", "EW")["results"] for tenon in ("2cm", "1mm"))
+    assert (stays["leaves_mortise"], stays["outcome"], stays["final_displacement_m"]) == (False, "lifted within the mortises", 0.0)
+    assert leaves["leaves_mortise"] is True
+    assert leaves["final_displacement_m"] > 0.1
+    assert answer("--tenon", 0, "--component", "EW")["results"][0]["leaves_mortise"] is None
+
+
+def test_jump_uses_drop_and_tenon_of_bundled_body():
+    """The Chozu-sha has a drop of 30 cm and tenons of 2 cm; options replace them."""
+    assert {key: answer()["parameters"][key] for key in ("drop_m", "tenon_m")} == {"drop_m": 0.3, "tenon_m": 0.02}
+    assert {key: answer(*FREE)["parameters"][key] for key in ("drop_m", "tenon_m")} == {"drop_m": 0.0, "tenon_m": None}
+
+
+def test_jump_keeps_drop_until_tenons_leave():
+    """A chain within the mortises ends on the foundation stones, so that a later one that leaves them still falls to the ground."""
+    (result,) = answer("--component", "EW", "--tenon", "1cm")["results"]
+    outcomes = [chain["outcome"] for chain in result["chains"]]
+    assert outcomes == ["lifted within the mortises", "jumped"]
+    free = answer("--component", "EW", "--tenon", 0)["results"][0]["chains"]
+    assert result["chains"][1]["jump_duration_s"] > free[1]["jump_duration_s"] + 0.1
+    assert result["final_displacement_m"] == pytest.approx(sum(chain["total_displacement_m"] for chain in result["chains"][1:]))
+
+
+def test_jump_as_printed_stands_beside_corrected():
+    """--as-printed adds the outcome of the paper's scheme, on the first chain and without tenons; the result itself is unchanged."""
+    words = ("--component", "EW", "--window", "26.1:26.2", "--gravity", 9.8)
+    (plain,), (pair,) = (answer(*words, *extra)["results"] for extra in ((), ("--as-printed",)))
+    assert plain["as_printed"] is None
+    assert {**pair, "as_printed": None} == plain
+    (chain,) = pair["as_printed"]["chains"]
+    assert (chain["outcome"], pair["as_printed"]["spin_ratio"]) == ("jumped", pytest.approx(0.2035778, abs=1e-7))
+    assert chain["total_displacement_m"] == pytest.approx(0.612, abs=1e-3)
+    output = run(*words, "--as-printed").stdout
+    assert output.startswith(f"{SAMPLE_NOTE}\nEW:")
+    assert "as printed" in output
+    assert "corrected" in output
+    assert "--landing" in run("--as-printed", "--landing", "paper").stderr
+
+
+def test_jump_lists_are_combined():
+    """Lists of side, drop and restitution give one result per combination, equal to the single run."""
+    results = answer("--side", "short,long", "--drop", "0,30cm", "--restitution-y", "0.7,0.85", "--component", "EW", "--tenon", 0)[
+        "results"
+    ]
+    keys = [(r["side"], r["drop_m"], r["restitution_y"]) for r in results]
+    assert keys == [(side, drop, e) for side in ("short", "long") for drop in (0.0, 0.3) for e in (0.7, 0.85)]
+    single = answer("--side", "long", "--drop", "0.3", "--restitution-y", 0.7, "--component", "EW", "--tenon", 0)["results"]
+    assert results[6:7] == single
+    refused = run("--side", "short,long", "--plot", "jump.png")
+    assert (refused.exit_code, "--plot" in refused.stderr) == (3, True)
 
 
 def test_jump_of_own_block_requires_friction():
@@ -168,16 +231,21 @@ def test_jump_of_own_block_requires_friction():
     missing = run(*sizes)
     assert missing.exit_code == 3
     assert "--mu" in missing.stderr
-    given = ("--mu", 0.18, "--mu-kinetic", 0.17)
-    assert answer(*sizes, *given, "--restitution-x", 0.95, "--restitution-y", 0.85)["results"] == answer()["results"]
-    assert answer(*sizes, *given)["results"] == answer()["results"]
+    values = ("--mu", 0.18, "--mu-kinetic", 0.17)
+
+    def sized(*words):
+        return [{**result, "side": "short"} for result in answer(*sizes, *words)["results"]]
+
+    bundled = answer(*FREE)["results"]
+    assert sized(*values, "--restitution-x", 0.95, "--restitution-y", 0.85) == bundled
+    assert sized(*values) == bundled
 
 
 ALL_CONTACT = ("--mu", 1, "--mu-kinetic", 1, "--restitution-x", 1, "--restitution-y", 1)
 
 BAD = {
     "missing file": (("nowhere.csv",), 3, "nowhere.csv"),
-    "directory": ((".",), 3, "is a folder: give a record file in it"),
+    "directory": ((str(Path(__file__).parent),), 3, "no record found in this folder"),
     "friction order": (("--mu", 0.1, "--mu-kinetic", 0.2), 3, "exceeds|must not exceed"),
     "restitution": (("--restitution-x", 1.2), 3, "restitution x must lie in"),
     "negative friction": (("--mu", -0.1), 3, "friction"),
@@ -215,3 +283,13 @@ def test_jump_reports_bad_input_in_one_sentence(arguments, code, says, tmp_path,
 def test_jump_repeated_calls_give_same_output():
     """The entry point can be called again and again with the same answer."""
     assert answer("--component", "EW") == answer("--component", "EW")
+
+
+def test_jump_lists_begin_with_the_range_of_displacements():
+    """A first chain without a jump leaves no mortise."""
+    result = CliRunner().invoke(main, ["jump", "--drop", "0,0.3", "--restitution-y", "0.1", "--component", "NS"])
+    first, second, *rest = result.stdout.splitlines()
+    assert first == "Record: synthetic_jma.csv (bundled, synthetic); none given."
+    assert second.startswith("First chain of 2 runs: total displacement 0.00 to 0.00")
+    (row,) = (line for line in rest if "leave their mortises" in line)
+    assert "yes" not in row

@@ -9,7 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.references import command_papers
+from seisblock.core.registry import get_solver
+from seisblock.references import papers
 from tests.stations import EPICENTRE, bundle, station_files
 
 
@@ -44,29 +45,29 @@ def test_map_document_lists_worst_first_and_names_failures(map_result):
 
 
 def test_map_geojson_is_valid_feature_collection(map_result):
-    """RFC 7946: a FeatureCollection of points, longitude before latitude; the keys of the document; no point without a place."""
+    """RFC 7946: a FeatureCollection of points, longitude before latitude; the flat keys of the document; no point without a place."""
     result, folder = map_result
     entries = {entry["station"]: entry for entry in json.loads(result.stdout)["results"]}
-    told = json.loads((folder / "a.geojson").read_text(encoding="utf-8"))
-    assert told["type"] == "FeatureCollection" and len(told["features"]) == 5
-    for feature in told["features"]:
+    answer = json.loads((folder / "a.geojson").read_text(encoding="utf-8"))
+    assert answer["type"] == "FeatureCollection" and len(answer["features"]) == 5
+    for feature in answer["features"]:
         assert (feature["type"], feature["geometry"]["type"]) == ("Feature", "Point")
         east, north = feature["geometry"]["coordinates"]
         entry = entries[feature["properties"]["station"]]
         assert (east, north) == (entry["longitude"], entry["latitude"]) and 137 < east < 140 and 36 < north < 39
-        assert feature["properties"] == {key: value for key, value in entry.items() if key not in ("latitude", "longitude")}
-    assert told["earthquake"]["coordinates"] == [138.87, 37.288]
+        assert feature["properties"] == {key: value for key, value in entry.items() if key not in ("latitude", "longitude", "assessment")}
+    assert answer["earthquake"]["coordinates"] == [138.87, 37.288]
 
 
 def test_map_csv_has_row_per_record(map_result):
-    """A row for each record, every digit of its numbers, empty where there is nothing."""
+    """A row for each record, its flat keys, every digit of its numbers, empty where there is nothing."""
     result, folder = map_result
     entries = json.loads(result.stdout)["results"]
     with (folder / "a.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert len(rows) == len(entries)
     for row, entry in zip(rows, entries, strict=True):
-        assert list(row) == list(entry)
+        assert list(row) == [key for key in entry if key != "assessment"]
         assert row["pga_m_s2"] == ("" if entry["pga_m_s2"] is None else repr(entry["pga_m_s2"]))
         assert row["station"] == entry["station"]
 
@@ -77,10 +78,10 @@ def test_map_prints_outcome_earthquake_and_stations(tmp_path, monkeypatch):
     for number in (1, 4):
         for name, data in station_files(number).items():
             (tmp_path / name).write_bytes(data)
-    shown = CliRunner().invoke(main, ["map", str(tmp_path), "--cemetery", "aoyama.csv"])
-    assert shown.exit_code == 0, shown.stderr
-    assert "of 2 stations, largest rate at SYA001" in shown.stdout
-    assert "earthquake of magnitude 6.8, depth 13 km, 37.288 N 138.87 E, 2004-10-23 17:56:00 JST" in shown.stdout
+    result = CliRunner().invoke(main, ["map", str(tmp_path), "--cemetery", "aoyama.csv"])
+    assert result.exit_code == 0, result.stderr
+    assert "of 2 stations, largest rate at SYA001" in result.stdout
+    assert "earthquake of magnitude 6.8, depth 13 km, 37.288 N 138.87 E, 2004-10-23 17:56:00 JST" in result.stdout
     peaks = CliRunner().invoke(main, ["map", str(tmp_path)])
     assert "2 stations, largest shaking at SYA001" in peaks.stdout
 
@@ -118,17 +119,17 @@ def test_map_warns_of_records_far_apart_in_time():
     """Two records of April and November 2016, one of which tells no earthquake: the answer stands, beside a sentence with the span."""
     result = CliRunner().invoke(main, ["map", "synthetic_jma.csv", "hanmer_springs_2016", "--json"])
     assert result.exit_code == 0 and len(json.loads(result.stdout)["results"]) == 2
-    (doubt,) = (each for each in json.loads(result.stdout)["warnings"] if "days apart" in each)
+    (doubt,) = (warning for warning in json.loads(result.stdout)["warnings"] if "days apart" in warning)
     assert doubt.startswith("the records begin 212 days apart, 2016-04-16 01:25:00 JST (SYN") and "2016-11-1" in doubt
     assert "a map requires records of one earthquake" in " ".join(result.stderr.split())
-    alone = CliRunner().invoke(main, ["map", "hanmer_springs_2016", "elcentro_1940_ns"])
-    assert alone.exit_code == 0 and "days apart" not in alone.stderr
+    single = CliRunner().invoke(main, ["map", "hanmer_springs_2016", "elcentro_1940_ns"])
+    assert single.exit_code == 0 and "days apart" not in single.stderr
 
 
 @pytest.mark.parametrize(
     ("words", "says", "heads"),
     [
-        ("--solver rock --block gravestone --runs 3", "gravestone: overturns at 0 of 1 station", "over- turns share worst samples"),
+        ("--solver rock --block gravestone --runs 3", "gravestone: stays at 1 of 1 station", "class over- turns worst samples"),
         ("--solver slide --mu 0.1", "object: slides at 1 of 1 station", "slides displ."),
         ("--solver jump --body chozusha --mu 0.18", "chozusha: jumps at 0 of 1 station", "jumps over- turns displ."),
         ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m: uplift at 1 of 1 station", "uplift"),
@@ -137,15 +138,17 @@ def test_map_warns_of_records_far_apart_in_time():
 def test_map_states_outcome_of_every_solver(words, says, heads, monkeypatch):
     """The verdict in its own words, what it tells of, and its papers; a name of several words is not broken within one."""
     monkeypatch.setenv("COLUMNS", "80")
-    shown = CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split()])
-    assert shown.exit_code == 0 and says in shown.stdout, shown.stderr
-    assert all(word in shown.stdout for word in (*heads.split(), "Emergency"))
-    told = json.loads(CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split(), "--json"]).stdout)
-    assert told["parameters"]["solver"] == words.split()[1] and set(command_papers(words.split()[1])) <= set(told["citations"])
+    result = CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split()])
+    assert result.exit_code == 0 and says in result.stdout, result.stderr
+    assert all(word in result.stdout for word in (*heads.split(), "Emergency"))
+    output = json.loads(CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split(), "--json"]).stdout)
+    assert output["parameters"]["solver"] == words.split()[1] and set(papers(*get_solver(words.split()[1]).topics)) <= set(
+        output["citations"]
+    )
 
 
 def test_map_states_floor_motion():
-    """What was done to each record stands beside its answer, in document and points."""
+    """Processing of each record stands in the document and in the points."""
     words = ["map", "hanmer_springs_2016", "--floor", "T=0.5", "--scale", "2", "--json"]
     (entry,) = json.loads(CliRunner().invoke(main, words).stdout)["results"]
     assert entry["history"].startswith("scaled by 2; floor motion T 0.5 s")
@@ -155,8 +158,8 @@ def test_map_figure_requires_coordinates(tmp_path):
     """Stations are drawn where it is known where they are; without any, one sentence."""
     for name, data in station_files(1).items():
         (tmp_path / name).write_bytes(data)
-    drawn = CliRunner().invoke(main, ["map", str(tmp_path / "SYA0010410231756.NS"), "--plot", str(tmp_path / "a.png")])
-    assert drawn.exit_code == 0, drawn.stderr
+    result = CliRunner().invoke(main, ["map", str(tmp_path / "SYA0010410231756.NS"), "--plot", str(tmp_path / "a.png")])
+    assert result.exit_code == 0, result.stderr
     page = CliRunner().invoke(main, ["map", str(tmp_path / "SYA0010410231756.NS"), "--html", str(tmp_path / "a.html")])
     assert page.exit_code == 0 and "SYA001" in (tmp_path / "a.html").read_text(encoding="utf-8")
     assert (tmp_path / "a.png").stat().st_size > 10_000
@@ -183,5 +186,25 @@ def test_map_includes_surveys_and_contradictions(tmp_path):
     point = json.loads((tmp_path / "a.geojson").read_text(encoding="utf-8"))["features"][-1]
     assert (point["geometry"]["coordinates"], point["properties"]["place"]) == ([138.9, 37.3], "光明寺")
     assert "inconsistent" in (tmp_path / "a.html").read_text(encoding="utf-8")
-    shown = " ".join(CliRunner().invoke(main, words[:4]).stdout.split())
-    assert "Surveyed cemeteries" in shown and "光明寺" in shown and "inconsistent" in shown
+    output = " ".join(CliRunner().invoke(main, words[:4]).stdout.split())
+    assert "Surveyed cemeteries" in output and "光明寺" in output and "inconsistent" in output
+
+
+def test_map_states_scaling_everywhere():
+    """The table, stderr and the parameters say that the records are scaled."""
+    words = ["map", "hanmer_springs_2016", "--scale", "4"]
+    answer = CliRunner().invoke(main, words)
+    assert "records scaled by 4" in answer.stdout and "records scaled by 4" in answer.stderr
+    parameters = json.loads(CliRunner().invoke(main, [*words, "--json"]).stdout)["parameters"]
+    assert (parameters["scale"], parameters["target_pga_m_s2"], parameters["target_jma_intensity"]) == (4.0, None, None)
+    assert "scaled" not in CliRunner().invoke(main, words[:2]).stdout
+
+
+def test_map_first_line_is_class_and_probability(map_result):
+    """The sentence names the most severe class, the number of its stations, and the largest probability."""
+    result, folder = map_result
+    entries = json.loads(result.stdout)["results"][:6]
+    words = ["map", str(folder / "event.knt.tar.gz"), "synthetic_jma", "--block", "gravestone", "--mu", "0.5", "--runs", "10"]
+    answer = CliRunner().invoke(main, words)
+    likely = sum(entry["assessment"]["class"] == "likely overturns" for entry in entries)
+    assert answer.stdout.startswith(f"gravestone: likely overturns at {likely} of 6 stations")

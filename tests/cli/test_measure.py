@@ -34,10 +34,10 @@ def sines(tmp_path):
 
 def test_measure_document_has_keys_in_si(run, sines):
     """The keys everyone relies on, SI, with the numbers of three sines."""
-    found = json.loads(run(sines, "--json").stdout)
-    assert found["schema"] == "seisblock/measure/1"
-    assert [r["component"] for r in found["results"]] == ["NS", "EW", "UD"]
-    for result, (amplitude, f) in zip(found["results"], ((2.0, 1.0), (1.0, 2.0), (0.5, 5.0)), strict=True):
+    output = json.loads(run(sines, "--json").stdout)
+    assert output["schema"] == "seisblock/measure/1"
+    assert [r["component"] for r in output["results"]] == ["NS", "EW", "UD"]
+    for result, (amplitude, f) in zip(output["results"], ((2.0, 1.0), (1.0, 2.0), (0.5, 5.0)), strict=True):
         omega = 2 * math.pi * f
         assert result["pga_m_s2"] == pytest.approx(amplitude, rel=1e-9)
         assert result["pgv_m_s"] == pytest.approx(amplitude / omega, rel=5e-3)
@@ -49,13 +49,13 @@ def test_measure_document_has_keys_in_si(run, sines):
         assert result["significant_duration_s"] == pytest.approx(54.0, rel=0.02)
         for value in result["equivalent_frequency_hz"].values():
             assert value == pytest.approx(f, rel=5e-3)
-        assert result["jma_intensity"] == found["jma_intensity"]
+        assert result["jma_intensity"] == output["jma_intensity"]
         assert result["duration"]["threshold_m_s2"] == pytest.approx(0.980665)
-    assert found["results"][0]["duration"]["count"] == 120
-    assert found["results"][2]["duration"] == {"threshold_m_s2": 0.980665, "total_s": 0.0, "longest_s": 0.0, "count": 0}
-    assert found["jma_class"] == "6-"
-    assert found["parameters"]["velocity_highpass_hz"] == 0.05
-    assert "Furukawa2009" in found["citations"]
+    assert output["results"][0]["duration"]["count"] == 120
+    assert output["results"][2]["duration"] == {"threshold_m_s2": 0.980665, "total_s": 0.0, "longest_s": 0.0, "count": 0}
+    assert output["jma_class"] == "6-"
+    assert output["parameters"]["velocity_highpass_hz"] == 0.05
+    assert "Furukawa2009" in output["citations"]
 
 
 @pytest.mark.parametrize(
@@ -85,10 +85,10 @@ def test_measure_one_sided_durations_are_half(run, sines):
 
 def test_measure_component_keeps_intensity_of_record(run, sines):
     """One component or an azimuth asked for, JMA intensity still of all three."""
-    whole = json.loads(run(sines, "--json").stdout)
+    full = json.loads(run(sines, "--json").stdout)
     part = json.loads(run(sines, "--json", "--component", "UD,45").stdout)
     assert [r["component"] for r in part["results"]] == ["UD", "45"]
-    assert part["jma_intensity"] == whole["jma_intensity"]
+    assert part["jma_intensity"] == full["jma_intensity"]
 
 
 def test_measure_table_fits_80_columns(run, sines):
@@ -116,12 +116,12 @@ def test_measure_csv_round_trips_acceleration(run, sines, tmp_path):
 
 def test_measure_indexes_results_of_two_records(run, sines, tmp_path):
     """Results carry the index of their record; the intensity becomes a list; a figure is refused in words."""
-    other = tmp_path / "half.csv"
-    other.write_text("time,NS (gal)\n" + "".join(f"{i * 0.01:.2f},{math.sin(i * 0.1):.6f}\n" for i in range(500)))
-    found = json.loads(run(sines, other, "--json").stdout)
-    assert [r["record_index"] for r in found["results"]] == [0, 0, 0, 1]
-    assert found["jma_intensity"][1] is None
-    refused = run(sines, other, "--plot", "two.png")
+    second = tmp_path / "half.csv"
+    second.write_text("time,NS (gal)\n" + "".join(f"{i * 0.01:.2f},{math.sin(i * 0.1):.6f}\n" for i in range(500)))
+    output = json.loads(run(sines, second, "--json").stdout)
+    assert [r["record_index"] for r in output["results"]] == [0, 0, 0, 1]
+    assert output["jma_intensity"][1] is None
+    refused = run(sines, second, "--plot", "two.png")
     assert refused.exit_code == 3
     assert not (tmp_path / "two.png").exists()
 
@@ -145,7 +145,7 @@ def test_measure_indexes_results_of_two_records(run, sines, tmp_path):
     ],
 )
 def test_measure_reports_bad_input_in_one_sentence(run, sines, words, exit_code, message):
-    """What is wrong, on stderr, and the exit code that goes with it."""
+    """Bad input gives a sentence on stderr and its exit code."""
     result = run(sines, *words)
     assert result.exit_code == exit_code
     assert message in " ".join(result.stderr.split())
@@ -161,18 +161,22 @@ def test_measure_writes_each_figure_format(run, sines, tmp_path):
 
 
 def test_measure_without_record_uses_sample(run):
-    """The bundled record, and a word about it on stderr."""
+    """Its name is the first line of the tables, and stands on stderr beside a document."""
+    line = "Record: hanmer_springs_2016.V1A.gz (bundled); none given."
     result = run("--json")
     assert json.loads(result.stdout)["record"]["samples"] > 1000
-    assert "bundled sample" in result.stderr
+    assert line in result.stderr
+    result = run()
+    assert result.stdout.splitlines()[0] == line
+    assert line not in result.stderr
 
 
 def test_help_lists_processing_options_in_order(run):
     """The mean goes before the high-pass, which said that it comes first; a target PGA is that of the whole record, not of the window."""
-    found = json.loads(run("elcentro_1940_ns", "--window", "20:", "--target-pga", "300", "--highpass", "0.1", "--demean", "--json").stdout)
-    steps = [next(i for i, did in enumerate(found["record"]["history"]) if word in did) for word in ("mean", "pass", "PGA", "window")]
+    output = json.loads(run("elcentro_1940_ns", "--window", "20:", "--target-pga", "300", "--highpass", "0.1", "--demean", "--json").stdout)
+    steps = [next(i for i, did in enumerate(output["record"]["history"]) if word in did) for word in ("mean", "pass", "PGA", "window")]
     assert steps == sorted(steps)
-    assert 0.1 < found["results"][0]["pga_m_s2"] < 2.9
-    told = " ".join(run("--help-all").stdout.split())
-    assert "over the whole record, before --floor and --window" in told
-    assert "after --demean, before --scale" in told and "before anything else" not in told
+    assert 0.1 < output["results"][0]["pga_m_s2"] < 2.9
+    text = " ".join(run("--help-all").stdout.split())
+    assert "over the whole record, before --floor and --window" in text
+    assert "after --demean, before --scale" in text and "before anything else" not in text

@@ -1,11 +1,14 @@
 """An option that has nothing to do in a call is refused: whoever gives one believes that it acts."""
 
+import json
 import shlex
 
+import click
 import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import infer, main
+from seisblock.cli.console import reset_warnings, warning
 from seisblock.cli.option_checks import RECORD_OPTIONS
 from seisblock.cli.options import Source
 from seisblock.cli.output import OutputOptions
@@ -23,10 +26,10 @@ IDLE = (
     (f"{SLID} --criterion rigid --confidence 0.5", "--criterion"),
     (f"{SLID} --spin printed", "--spin"),
     (f"{SLID} --drop 1", "--drop"),
+    (f"{SLID} --runs 50", "--runs"),
+    ("infer --twist 8 --steps 50", "--steps"),
     ("infer --jumped 5cm --vertical", "--vertical"),
     ("infer --jumped 5cm --frequency 2", "--frequency"),
-    (f"rock {BLOCK} --seed -1", "--seed"),
-    (f"rock {BLOCK} --spread -0.1", "--spread"),
     (f"rock {BLOCK} --perturb 5 --margin-limit 2", "--margin-limit"),
     (f"{AOYAMA} --target-pga 300", "--target-pga"),
     (f"{AOYAMA} --pga 300 --equivalent fourier", "--equivalent"),
@@ -64,17 +67,31 @@ OF_ONE_SIDE = (
 def test_options_without_effect_are_rejected_by_name(line, flag, tmp_path, monkeypatch):
     """One sentence that names the option, before anything is computed; nothing on stdout."""
     monkeypatch.chdir(tmp_path)
-    done = CliRunner().invoke(main, shlex.split(line))
-    assert done.exit_code == 2 and done.stdout == ""
-    assert flag in done.stderr.splitlines()[-1]
+    result = CliRunner().invoke(main, shlex.split(line))
+    assert result.exit_code == 2 and result.stdout == ""
+    assert flag in result.stderr.splitlines()[-1]
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("words", "says"), [("--seed -1", "the seed must be an integer of at least 0"), ("--spread -0.1", "found -0.1")])
+def test_rock_checks_options_of_its_default_samples(words, says):
+    """Samples are drawn without --perturb, too: their options have an effect, and are checked."""
+    result = CliRunner().invoke(main, shlex.split(f"rock {BLOCK} --component NS {words}"))
+    assert result.exit_code == 3 and result.stdout == "" and says in result.stderr.splitlines()[-1]
+
+
+def test_options_of_default_samples_of_rock_change_the_probability():
+    """Neither the seed nor the half width needs --perturb."""
+    lines = [f"rock {BLOCK} --component NS --scale 0.5 --json {words}" for words in ("", "--seed 1", "--spread 0.3")]
+    shares = [json.loads(CliRunner().invoke(main, shlex.split(line)).stdout)["results"][0]["assessment"] for line in lines]
+    assert len({share["overturning_probability"] for share in shares}) == 3
 
 
 @pytest.mark.parametrize("line", OF_ONE_SIDE)
 def test_side_requires_two_layer_block(line):
     """--side chose nothing of bodies that are no two-layer block, without a word."""
-    done = CliRunner().invoke(main, shlex.split(line))
-    assert done.exit_code == 3 and "--side has no effect: this body is not a two-layer --block" in done.stderr
+    result = CliRunner().invoke(main, shlex.split(line))
+    assert result.exit_code == 3 and "--side has no effect: this body is not a two-layer --block" in result.stderr
 
 
 def test_infer_rejects_options_of_other_modes():
@@ -89,14 +106,20 @@ def test_infer_rejects_options_of_other_modes():
         "cemetery",
         "slid",
         "jumped",
+        "twist",
         "rate",
     }
-    own = {"--cemetery": {*infer.STONE_OPTIONS}, "--slid": {*infer.SLID_OPTIONS}, "--jumped": {*infer.JUMPED_OPTIONS}}
-    assert {each.name for each in main.get_command(None, "infer").params} - shared == set().union(*own.values())
-    for form, read in own.items():
+    mapping = {
+        "--cemetery": {*infer.STONE_OPTIONS},
+        "--slid": {*infer.SLID_OPTIONS},
+        "--jumped": {*infer.JUMPED_OPTIONS},
+        "--twist": {*infer.TWIST_OPTIONS},
+    }
+    assert {param.name for param in main.get_command(None, "infer").params} - shared == set().union(*mapping.values())
+    for form, read in mapping.items():
         idle = set(infer._foreign_options(form, rigid=False))
         assert not idle & (read - {"gravity"})
-        assert idle == set().union(*own.values()) - read | (set(RECORD_OPTIONS) if form == "--cemetery" else set())
+        assert idle == set().union(*mapping.values()) - read | (set(RECORD_OPTIONS) if form == "--cemetery" else set())
 
 
 def test_infer_accepts_options_of_its_mode():
@@ -108,12 +131,24 @@ def test_infer_accepts_options_of_its_mode():
 
 def test_jump_rejects_vertical():
     """--vertical of a solver that has none fell with a traceback."""
-    done = CliRunner().invoke(main, shlex.split("map --block chozusha --solver jump --vertical"))
-    assert done.exit_code == 3 and "jump has no option --vertical" in done.stderr
+    result = CliRunner().invoke(main, shlex.split("map --block chozusha --solver jump --vertical"))
+    assert result.exit_code == 3 and "jump has no option --vertical" in result.stderr
 
 
 def test_suggested_respond_command_keeps_side():
-    """What rock offers to type is of the same side of the body; it was always the short one."""
+    """The command suggested by rock keeps the side of the body (was: always the short one)."""
     line = "rock synthetic_jma.csv --component NS --block chozusha --side long --mu 0.01 --quiet"
     typed = " ".join(CliRunner().invoke(main, shlex.split(line)).stdout.split())
     assert "seisblock respond synthetic_jma.csv --component NS --block chozusha --side long --mu 0.01" in typed
+
+
+def test_warning_prints_option_instead_of_parameter():
+    """Warnings of the library name parameters; the command line shows its options, as in errors."""
+
+    @click.command()
+    @click.option("--step")
+    def solve(step):
+        reset_warnings()
+        warning("not converged in {share:.0f} % of the steps; give a finer `step`, not a finer `grid`", share=3.0)
+
+    assert CliRunner().invoke(solve).stderr == "warning: not converged in 3 % of the steps; give a finer --step, not a finer grid\n"

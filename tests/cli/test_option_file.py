@@ -59,13 +59,13 @@ def test_file_with_an_error_is_refused_in_one_sentence(tmp_path, text, message):
     """Exit code 2, no traceback."""
     path = tmp_path / "wrong.toml"
     path.write_text(text, encoding="utf-8")
-    done = run("--options", path)
-    assert done.exit_code == 2
-    assert message in " ".join(done.stderr.split())
+    result = run("--options", path)
+    assert result.exit_code == 2
+    assert message in " ".join(result.stderr.split())
 
 
 def test_missing_file_of_options_is_named(tmp_path):
     """Exit code 2 with the path."""
-    done = run("--options", tmp_path / "none.toml")
-    assert done.exit_code == 2
-    assert "none.toml" in done.stderr
+    result = run("--options", tmp_path / "none.toml")
+    assert result.exit_code == 2
+    assert "none.toml" in result.stderr

@@ -18,6 +18,7 @@ from seisblock import samples
 from seisblock.cli import COMMANDS, main
 from tests.brief_record import brief_record
 from tests.lengths import all_but_slow
+from tests.readers import data_center
 
 HEAVY = ("numba", "obspy", "scipy", "matplotlib", "PIL", "pandas")
 SEISBLOCK = f"{shlex.quote(sys.executable)} -m seisblock"
@@ -38,8 +39,8 @@ def test_help_imports_no_large_package(words):
         f"try:\n    main({words!r})\nexcept SystemExit as end:\n    assert not end.code\n"
         "print('\\n' + ' '.join(sys.modules), file=sys.stderr)"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    loaded = set(done.stderr.splitlines()[-1].split())
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    loaded = set(result.stderr.splitlines()[-1].split())
     assert loaded.isdisjoint(HEAVY)
     assert len(words) == 2 or loaded.isdisjoint({"rich", "numpy"})
 
@@ -53,8 +54,8 @@ def test_start_time_is_at_most_twice_python_with_click():
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
-    ours, least = zip(*((spent("-m", "seisblock", "--help"), spent("-c", "import click")) for _ in range(5)), strict=True)
-    assert min(ours) < 4.0 * min(least)
+    ours, minimum = zip(*((spent("-m", "seisblock", "--help"), spent("-c", "import click")) for _ in range(5)), strict=True)
+    assert min(ours) < 4.0 * min(minimum)
 
 
 @pytest.mark.parametrize(
@@ -63,10 +64,10 @@ def test_start_time_is_at_most_twice_python_with_click():
 )
 def test_broken_pipe_leaves_stderr_empty(line, tmp_path):
     """`| head -1` leaves stderr without a word about pipes and a traceback least of all."""
-    done = shell(f"{SEISBLOCK} {line} --quiet | head -1" if "cite" not in line else f"{SEISBLOCK} {line} | head -1", tmp_path)
-    assert done.stderr == ""
-    assert len(done.stdout.splitlines()) == 1
-    assert done.returncode in (0, 141)
+    result = shell(f"{SEISBLOCK} {line} --quiet | head -1" if "cite" not in line else f"{SEISBLOCK} {line} | head -1", tmp_path)
+    assert result.stderr == ""
+    assert len(result.stdout.splitlines()) == 1
+    assert result.returncode in (0, 141)
 
 
 def run_interrupted(words, cwd, wait):
@@ -77,10 +78,10 @@ def run_interrupted(words, cwd, wait):
         wait(process)
         process.send_signal(signal.SIGINT)
         try:
-            _, said = process.communicate(timeout=600)
+            _, message = process.communicate(timeout=600)
         finally:
             process.kill()
-        return process.returncode, said
+        return process.returncode, message
 
 
 def test_sigint_exits_130_and_leaves_no_partial_file(tmp_path):
@@ -95,9 +96,9 @@ def test_sigint_exits_130_and_leaves_no_partial_file(tmp_path):
             time.sleep(0.02)
         time.sleep(0.3)
 
-    code, said = run_interrupted(["jump", "--component", "EW", "--animate", film.name, "--slow", "40", "--quiet"], tmp_path, drawing)
+    code, message = run_interrupted(["jump", "--component", "EW", "--animate", film.name, "--slow", "40", "--quiet"], tmp_path, drawing)
     assert code == 130
-    assert said.strip() == "seisblock: interrupted; no partially written file remains"
+    assert message.strip() == "seisblock: interrupted; no partially written file remains"
     assert [path.name for path in tmp_path.iterdir()] == ["film.gif"] and film.read_bytes() == b"old"
 
 
@@ -180,13 +181,31 @@ def brief_samples(tmp_path_factory):
 def workshop(tmp_path, brief_samples, monkeypatch, request):
     """A directory with the record that the examples name; it and the bundled one are brief, for how long they are is not the point.
 
-    The evidence rests on the bundled record as it is.
+    The evidence and the items of papers rest on the bundled record as it is.
     """
     (tmp_path / "record.csv").write_bytes(brief_record())
-    if getattr(request.node, "callspec", None) is None or request.node.callspec.params.get("name") != "validate":
+    shutil.copy(samples.sample_directory() / "aoyama.csv", tmp_path / "cemetery.csv")
+    (tmp_path / "stations.csv").write_text("station,pga (gal),frequency (Hz),rate\nAAA,300,1.2,0.2\nBBB,600,2.0,0.5\n", encoding="utf-8")
+    if getattr(request.node, "callspec", None) is None or request.node.callspec.params.get("name") not in {"paper", "validate"}:
         monkeypatch.setattr(samples, "sample_directory", lambda: brief_samples)
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture
+def centers(monkeypatch):
+    """The data centers that examples name, played on the loopback address; they know the event and the station of the examples."""
+    from obspy import UTCDateTime
+    from obspy.clients.fdsn.header import URL_MAPPINGS
+
+    monkeypatch.setattr(data_center, "EVENT_ID", "ci38457511")
+    monkeypatch.setattr(data_center, "NETWORK", "CI")
+    monkeypatch.setattr(data_center, "STATIONS", {"MIKB": (35.0, 139.1), "MID": (35.3, 139.0)})
+    monkeypatch.setattr(data_center, "START", UTCDateTime(2019, 7, 6, 3, 19, 40))
+    with data_center.data_center() as server:
+        for expected in ("USGS", "SCEDC"):
+            monkeypatch.setitem(URL_MAPPINGS, expected, server.url)
+        yield server
 
 
 def examples(name):
@@ -196,24 +215,27 @@ def examples(name):
     return [line for line in lines if line]
 
 
-SECONDS = ("fit", "measure", "report", "rock", "spectrum", "stack", "uplift", "validate")
+SECONDS = ("fetch", "fit", "measure", "report", "rock", "scenario", "secure", "spectrum", "stack", "uplift", "validate")
 """Commands some of whose examples take seconds."""
 
 
 @pytest.mark.parametrize("name", ["", *(pytest.param(name, marks=[pytest.mark.slow] * (name in SECONDS)) for name in COMMANDS)])
-def test_help_examples_run(name, workshop):
-    """At least two lines at the end of each help can be pasted as they stand, and run."""
+def test_help_examples_run(name, workshop, monkeypatch, request):
+    """At least two lines at the end of each help can be pasted as they stand, and run; the page is not served, nor a server asked."""
+    monkeypatch.setattr("seisblock.app.server.serve", lambda listener, *rest: listener.close())
+    if name == "fetch":
+        request.getfixturevalue("centers")
     lines = examples(name)
     assert len(lines) >= 2
     for line in lines:
         assert "seisblock" in line
         if any(sign in line for sign in "|>$"):
             function = f'seisblock() {{ {SEISBLOCK} "$@"; }}\n'
-            done = shell(function + line, workshop)
-            assert done.returncode == 0, (line, done.stderr)
+            result = shell(function + line, workshop)
+            assert result.returncode == 0, (line, result.stderr)
         else:
-            done = CliRunner().invoke(main, shlex.split(line)[1:])
-            assert done.exit_code == 0, (line, done.output)
+            result = CliRunner().invoke(main, shlex.split(line)[1:])
+            assert result.exit_code == 0, (line, result.output)
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -229,8 +251,8 @@ def test_help_groups_every_option(name):
 def test_plot_to_stdout_writes_png_only(tmp_path):
     """`--plot -` writes a .png to stdout without a table around it."""
     command = [sys.executable, "-m", "seisblock", "jump", "--component", "EW", "--plot", "-", "--quiet"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
-    assert done.stdout.startswith(b"\x89PNG") and done.stdout.endswith(b"IEND\xaeB`\x82") and done.stderr == b""
+    result = subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
+    assert result.stdout.startswith(b"\x89PNG") and result.stdout.endswith(b"IEND\xaeB`\x82") and result.stderr == b""
     assert list(tmp_path.iterdir()) == []
 
 
@@ -241,21 +263,33 @@ def test_main_is_repeatable_in_one_process(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "text"),
     [
         (("slide", "bare.csv", "--mu", "0.2"), "give the sampling interval with --dt, for example 0.01 s"),
         (("uplift", "--width", "1", "--height", "2"), "give --frequency-vertical in Hz, or --mass and --stiffness kx,ky,kz in N/m"),
     ],
 )
-def test_library_parameter_names_become_options_in_errors(tmp_path, monkeypatch, words, told):
+def test_library_parameter_names_become_options_in_errors(tmp_path, monkeypatch, words, text):
     """A sentence from below names parameters as Python does; the command line tells them as its own options, in any language."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bare.csv").write_text("NS (gal)\n" + "1\n2\n" * 50, encoding="utf-8")
     from seisblock.core.errors import InputError
     from seisblock.readers import read
 
-    assert told in CliRunner().invoke(main, words).stderr
+    assert text in CliRunner().invoke(main, words).stderr
     told_in_japanese = CliRunner().invoke(main, ["--lang", "ja", *words]).stderr
     assert "`" not in told_in_japanese and "--" in told_in_japanese
     with pytest.raises(InputError, match="give the sampling interval with `dt`"):
         read(tmp_path / "bare.csv")
+
+
+def test_help_is_the_same_without_docstrings():
+    """``python -OO`` removes docstrings; descriptions of commands, of a registered solver and of the program stay."""
+    texts = []
+    for flags in ([], ["-OO"]):
+        script = "import sys; from click.testing import CliRunner; from seisblock.cli import main; " + (
+            "[print(CliRunner().invoke(main, [*words, '--help']).stdout) for words in ([], ['respond'], ['rigid3d'])]"
+        )
+        texts.append(subprocess.run([sys.executable, *flags, "-c", script], capture_output=True, text=True, check=True).stdout)
+    assert texts[0] == texts[1]
+    assert "Full response" in texts[0]

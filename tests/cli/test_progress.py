@@ -80,7 +80,7 @@ def by_command(text):
 
 @pytest.fixture(scope="module")
 def command_output(tmp_path_factory):
-    """What each command writes off a terminal and on one, after the kernels have been compiled."""
+    """Output of each command on a terminal and elsewhere, after compilation."""
     workshop = tmp_path_factory.mktemp("workshop")
     (workshop / "record.csv").write_bytes(brief_record())
     lines = [*dict.fromkeys(WORKS.values()), QUIET]
@@ -127,7 +127,7 @@ def test_kernel_compilation_shows_progress(tmp_path):
 @pytest.mark.parametrize("work", WORKS)
 def test_long_steps_show_progress_and_clear_it(work, command_output):
     """While a command reads, computes, draws and writes, a line says so; in the end only what was said stands there."""
-    off, on = (where[WORKS[work]] for where in command_output)
+    off, on = (place[WORKS[work]] for place in command_output)
     assert re.search(rf"{work}[^\n]*━", on)
     assert "━" not in off
     assert remaining_lines(on) == off.splitlines()
@@ -149,9 +149,9 @@ def test_long_motion_shows_share_completed(tmp_path):
 
 def test_reported_samples_increase_to_the_last():
     """The engine tells a motion piece by piece to its end; it begins anew where it needs more room for events."""
-    motion, told = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(300_000)), 0.01), []
-    with progress_scope(lambda done, total: told.append((done, total))):
+    motion, text = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(300_000)), 0.01), []
+    with progress_scope(lambda result, total: text.append((result, total))):
         solve_slide(0.2, motion)
-    assert {total for _, total in told} == {motion.samples - 1}
-    assert told[-1] == (motion.samples - 1, motion.samples - 1)
-    assert np.diff([done for done, _ in told]).max() < motion.samples / 3
+    assert {total for _, total in text} == {motion.samples - 1}
+    assert text[-1] == (motion.samples - 1, motion.samples - 1)
+    assert np.diff([completed for completed, _ in text]).max() < motion.samples / 3

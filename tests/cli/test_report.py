@@ -1,5 +1,6 @@
 """``seisblock report``: one page with everything about a record and some bodies, in two languages, that fetches nothing."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -13,20 +14,20 @@ from seisblock.bodies.factory import load_block
 from seisblock.cli import main
 from seisblock.core.i18n import use_locale
 from seisblock.measures import measure
-from seisblock.models.jump.chain import JUMPED
+from seisblock.models.jump.chain import ChainOutcome
 from seisblock.models.respond import solve_respond
 from seisblock.models.rock.solve import solve_rock
+from seisblock.output.figures.heading import heading
+from seisblock.output.figures.svg import MAX_POINTS, embed_figure
 from seisblock.readers import read
 from seisblock.records import Preparation, motion_of
 from seisblock.records.process import crop
-from seisblock.report.figures.heading import heading
 from seisblock.report.figures.measure import measure_figure
-from seisblock.report.figures.svg import MAX_POINTS, embed_figure
 from seisblock.report.html.report import report
 from seisblock.report.html.report_text import verdict
 from seisblock.samples import sample_path
-from seisblock.studies.assessment import assess
 from seisblock.studies.report.models import body_models
+from seisblock.studies.report.responses import collect_responses
 from tests.brief_record import brief_record
 from tests.i18n.english import english_words, visible_text
 
@@ -37,12 +38,12 @@ CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 def pages():
     """The page of a window of the bundled record, in both languages, with all four kinds of motion."""
     bodies = [body_models("gravestone"), body_models("chozusha", frequency_vertical=5.0)]
-    found = assess(crop(read("synthetic_jma.csv"), 22, 29), bodies, components=["EW"])
-    made = {}
+    result = collect_responses(crop(read("synthetic_jma.csv"), 22, 29), bodies, components=["EW"])
+    mapping = {}
     for lang in ("en", "ja"):
         with use_locale(lang):
-            made[lang] = report(found, command="seisblock report")
-    return made
+            mapping[lang] = report(result, command="seisblock report")
+    return mapping
 
 
 @pytest.mark.slow
@@ -69,10 +70,10 @@ def test_report_contents_link_to_every_section(pages):
 
 @pytest.fixture(scope="module")
 def square(tmp_path_factory):
-    """What a record that is as it was read does to a square block."""
+    """Return the response of a square block to an unprocessed record."""
     path = tmp_path_factory.mktemp("record") / "brief.csv"
     path.write_bytes(brief_record())
-    return assess(read(path), [body_models("1x1")], components=["EW"])
+    return collect_responses(read(path), [body_models("1x1")], components=["EW"])
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +88,7 @@ def test_report_title_has_file_name_without_folder(tmp_path):
     path.parent.mkdir()
     path.write_text("time (s),NS (gal)\n0.00,0\n0.01,1\n0.02,-1\n0.03,0\n", encoding="utf-8")
     shaken = read(path)
-    page = report(assess(shaken, []))
+    page = report(collect_responses(shaken, []))
     assert "<h1>Seismic response of unanchored objects: shaken.csv</h1>" in page and "somewhere" not in page
     assert heading(shaken) == "shaken.csv"
 
@@ -95,11 +96,11 @@ def test_report_title_has_file_name_without_folder(tmp_path):
 @pytest.mark.slow
 def test_report_states_processing_before_outcomes(square, page_of_square):
     """F4: a page of a scaled record says so before it says anything else, in either language; one of a record as read does not."""
-    scaled = assess(Preparation(scale=0.5).apply(square.record), [body_models("1x1")], components=["EW"])
-    for lang, told in (("en", "Processing: "), ("ja", "記録の処理：")):
+    scaled = collect_responses(Preparation(scale=0.5).apply(square.record), [body_models("1x1")], components=["EW"])
+    for lang, text in (("en", "Processing: "), ("ja", "記録の処理：")):
         with use_locale(lang):
             page = report(scaled)
-        (line,) = re.findall(rf'<p class="processed">{told}(.*?)</p>', page)
+        (line,) = re.findall(rf'<p class="processed">{text}(.*?)</p>', page)
         assert "0.5" in line and page.index(line) < page.index('<div class="verdicts">')
     assert 'class="processed"' not in page_of_square
 
@@ -123,8 +124,8 @@ def test_report_figure_keeps_extremes():
         line.axes.set_xlim(auto=True)
     before = [(np.nanmin(line.get_ydata()), np.nanmax(line.get_ydata())) for line in lines]
     assert max(len(line.get_xdata()) for line in lines) > MAX_POINTS
-    drawn = embed_figure(figure, "the record").source
-    assert drawn.startswith("data:image/svg+xml") and len(drawn) < 900_000
+    fig = embed_figure(figure, "the record").source
+    assert fig.startswith("data:image/svg+xml") and len(fig) < 900_000
     assert [(np.nanmin(line.get_ydata()), np.nanmax(line.get_ydata())) for line in lines] == before
     assert max(len(line.get_xdata()) for line in lines) <= MAX_POINTS + 4
 
@@ -147,8 +148,8 @@ def test_report_fits_390_px(pages, lang, tmp_path):
     )
     options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--virtual-time-budget=4000"]
     command = [CHROMIUM, *options, f"--user-data-dir={tmp_path}/profile", "--dump-dom", frame.as_uri()]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=600)
-    assert "<title>390,true,0</title>" in done.stdout
+    result = subprocess.run(command, capture_output=True, text=True, check=True, timeout=600)
+    assert "<title>390,true,0</title>" in result.stdout
 
 
 def test_report_has_viewport_and_print_style(pages):
@@ -159,7 +160,7 @@ def test_report_has_viewport_and_print_style(pages):
 
 def test_report_has_every_section(pages):
     """Record, measures, rocking, criteria, sliding, jump, uplift, provenance."""
-    for named in (
+    for names in (
         "Ground motion record",
         "gravestone",
         "Chozu-sha, short side",
@@ -172,8 +173,8 @@ def test_report_has_every_section(pages):
         "Uplift on corner springs",
         "Provenance",
     ):
-        assert re.search(rf"<h[23][^>]*>{re.escape(named)}</h[23]>", pages["en"]), named
-        assert re.search(rf"<h[23][^>]*>{re.escape(named)}</h[23]>", pages["ja"]) is None
+        assert re.search(rf"<h[23][^>]*>{re.escape(names)}</h[23]>", pages["en"]), names
+        assert re.search(rf"<h[23][^>]*>{re.escape(names)}</h[23]>", pages["ja"]) is None
 
 
 def test_report_states_digest_format_and_citations(pages):
@@ -194,13 +195,14 @@ def test_report_outcome_equals_solve_rock(pages):
 
 
 def test_report_card_states_best_estimate(pages):
-    """Its verdict and its share are those of respond; the idealised models stand below, with the factor from which on each begins."""
-    cards = re.findall(r'<div class="(?:bad|mild|)"><b>(.*?)</b><span>(.*?)</span></div>', pages["en"])
+    """The probability first; verdict and share are those of respond; the idealised models stand below, with the factors of their onset."""
+    cards = re.findall(r'<div style="border-left-color: #[0-9a-f]{6}"><b>(.*?)</b><span>(.*?)</span></div>', pages["en"])
     assert [head.split(":")[0] for head, _ in cards] == ["gravestone, EW", "Chozu-sha, short side, EW"]
     motion = motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")
     outcome = solve_respond(load_block("gravestone"), motion, mu=0.438).outcome
-    assert f"overturns to -EW at {outcome.overturning_time_s:.2f}\xa0s" in cards[0][0] and outcome.overturned
-    assert re.match("Overturning probability \\d+\xa0% \\(95\xa0% CI .*, 200 samples\\)", cards[0][1]) and "slides" in cards[1][0]
+    assert re.match("gravestone, EW: likely overturns \\(\\d+\xa0%; factor to overturning .* by model\\)", cards[0][0])
+    assert f"overturns to -EW at {outcome.overturning_time_s:.2f}\xa0s" in cards[0][1] and outcome.overturned
+    assert re.search("Overturning probability \\d+\xa0% \\(95\xa0% CI .*, 200 samples\\)", cards[0][1]) and "slides" in cards[1][1]
     page = pages["en"]
     assert page.index("Full response") < page.index("Idealised models") < page.index("<h3>Rocking and overturning</h3>")
     assert re.search(
@@ -239,12 +241,54 @@ def test_report_of_single_component_record(tmp_path):
 
 def test_report_rounds_tiny_jump_without_minus_sign():
     """A body that ends where it stood has moved to neither side, one that ends a hair's breadth to the left has moved."""
-    moved = [SimpleNamespace(outcome=JUMPED, final_displacement_m=metres) for metres in (-0.0, 0.0, -4e-6, -6e-4)]
+    moved = [SimpleNamespace(outcome=ChainOutcome.JUMPED, final_displacement_m=metres) for metres in (-0.0, 0.0, -4e-6, -6e-4)]
     effects = [
-        SimpleNamespace(kind="jump", response=SimpleNamespace(outcome=outcome, motion=SimpleNamespace(name="NS"))) for outcome in moved
+        SimpleNamespace(response=SimpleNamespace(model="jump", outcome=outcome, motion=SimpleNamespace(name="NS"))) for outcome in moved
     ]
     assert [verdict(effect) for effect in effects] == [
         *["jump, displacement 0.0 cm"] * 2,
         "jump, displacement less than 0.01 mm to -NS",
         "jump, displacement 0.60 mm to -NS",
     ]
+
+
+@pytest.fixture(scope="module")
+def report_document():
+    """Document of two bodies under the bundled record, around its strongest part."""
+    answer = CliRunner().invoke(main, ["report", "--body", "gravestone", "--body", "60cmx100cm", "--window", "22:29", "--json"])
+    assert answer.exit_code == 0, answer.stderr
+    return json.loads(answer.stdout)
+
+
+def test_report_document_has_assessment_per_body_and_direction(report_document):
+    """One result per body and direction, as `respond` assesses it; `object` holds each body under either direction."""
+    results = report_document["results"]
+    assert [(entry["body"], entry["component"]) for entry in results] == [
+        *(("gravestone", name) for name in ("NS", "EW")),
+        *(("block 0.6 x 1 m", name) for name in ("NS", "EW")),
+    ]
+    for body, pair in zip(report_document["object"], (results[:2], results[2:]), strict=True):
+        shares = [entry["assessment"]["overturning_probability"] for entry in pair]
+        assert max(shares) <= body["overturning_probability"] <= sum(shares) and body["runs"] == 200
+        assert body["direction"] == pair[shares.index(max(shares))]["component"]
+    words = ["respond", "--block", "gravestone", "--window", "22:29", "--component", "EW", "--json"]
+    single = json.loads(CliRunner().invoke(main, words).stdout)["results"][0]
+    assert results[1]["assessment"] == single["assessment"]
+    assert [model["model"] for model in results[0]["models"]] == ["respond", "rock", "slide"]
+
+
+def test_report_requires_page_or_json(tmp_path):
+    """Without either: a usage error in one sentence. With both, the page and the document."""
+    answer = CliRunner().invoke(main, ["report", "--body", "gravestone"])
+    assert answer.exit_code == 2 and "requires -o FILE" in answer.stderr
+
+
+def test_report_prints_one_line_per_body(tmp_path):
+    """Stdout names the bundled record, then holds the assessment of each body, the head of its card, too."""
+    page = tmp_path / "a.html"
+    words = ["report", "--body", "gravestone", "--window", "22:29", "-o", str(page), "--quiet"]
+    answer = CliRunner().invoke(main, words)
+    record, line = answer.stdout.splitlines()
+    assert record == "Record: synthetic_jma.csv (bundled, synthetic); none given."
+    assert re.fullmatch(r"gravestone: likely overturns \(\d+.%\); worst direction (NS|EW)", line)
+    assert f"<b>{line}.</b>" in page.read_text(encoding="utf-8").replace("\xa0", " ")

@@ -11,10 +11,11 @@ from click.testing import CliRunner
 from seisblock.bodies.block import Block
 from seisblock.cli import main
 from seisblock.models.respond import solve_respond
+from seisblock.models.respond.describe import describe
+from seisblock.models.respond.plot import figure
+from seisblock.output.units_display import length_unit
 from seisblock.records import Motion
-from seisblock.report.figures.respond import figure
-from seisblock.report.text.respond import describe, format_signed, probability_sentence
-from seisblock.report.units_display import length_unit
+from seisblock.report.text.respond import format_signed, probability_sentence
 from seisblock.studies.respond.probability import ParameterVariation, Probability
 
 CABINET = ("--width", "45cm", "--height", "180cm", "--mu", "0.3")
@@ -32,9 +33,9 @@ def run(*words):
 
 def answer(*words):
     """Return its document."""
-    done = run(*words, "--json")
-    assert done.exit_code == 0, done.stderr
-    return json.loads(done.stdout)
+    result = run(*words, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
 
 
 def test_respond_document_has_contract_keys():
@@ -52,20 +53,21 @@ def test_respond_document_has_contract_keys():
 
 
 def test_respond_prints_outcome_then_probability():
-    """Verdict, share of versions, then the table."""
+    """Class and probability, the single run, the interval of the share, then the table."""
     lines = run("elcentro_1940_ns", *CABINET[:4], "--mu", "0.1", "--runs", "20", "--quiet").stdout.splitlines()
-    assert lines[0].startswith("NS: slides ") and "no rocking" in lines[0] + lines[1]
-    assert any("20 samples" in line for line in lines[1:4])
+    assert re.match(r"NS: moves \(0 %; factor to overturning \d\.\d\d-\d\.\d\d by model\)$", lines[0])
+    assert lines[1].startswith("NS: slides ") and "no rocking" in lines[1] + lines[2]
+    assert any("20 samples" in line for line in lines[2:5])
 
 
 @pytest.mark.parametrize("words", [("--width", "60cm", "--height", "60cm", "--mu", "1.2"), ("--block", "gravestone")])
 def test_respond_of_weak_record_reports_no_motion(words, tmp_path):
     """A weak record: the sentence says so, and no displacement is minus zero."""
-    shown = " ".join(run("elcentro_1940_ns", *words, "--scale", "0.1", "--runs", "5", "--quiet").stdout.split())
+    output = " ".join(run("elcentro_1940_ns", *words, "--scale", "0.1", "--runs", "5", "--quiet").stdout.split())
     assert (
-        re.search("NS: remains at rest; (rocking|sliding) threshold ", shown)
-        and "Overturning probability 0 % (95 % CI 0-52 %, 5 samples); overturning or residual displacement above" in shown
-        and "-0.0" not in shown
+        re.search("NS: remains at rest; (rocking|sliding) threshold ", output)
+        and "Overturning probability 0 % (95 % CI 0-52 %, 5 samples); overturning or residual displacement above" in output
+        and "-0.0" not in output
     )
 
 
@@ -79,8 +81,8 @@ def test_respond_bundled_bodies_have_friction():
 
 def test_respond_surface_sets_friction_with_source():
     """--surface takes friction from the table, and the source is told."""
-    done = run("elcentro_1940_ns", "--width", "45cm", "--height", "180cm", "--surface", "wood/stone", "--runs", "0")
-    assert "mu 0.18, kinetic 0.17" in done.stderr and "Sugimoto2017" in done.stderr
+    result = run("elcentro_1940_ns", "--width", "45cm", "--height", "180cm", "--surface", "wood/stone", "--runs", "0")
+    assert "mu 0.18, kinetic 0.17" in result.stderr and "Sugimoto2017" in result.stderr
 
 
 ELSEWHERE = (
@@ -95,8 +97,8 @@ ELSEWHERE = (
 def test_jump_and_rock_suggest_working_respond_command(words, before, monkeypatch):
     """Jump and rock with too little friction: the line that they print runs, on the same record and the same body."""
     monkeypatch.setenv("COLUMNS", "400")
-    shown = CliRunner().invoke(main, list(words)).stdout
-    typed = shlex.split(shown.split(before)[1].splitlines()[0])
+    output = CliRunner().invoke(main, list(words)).stdout
+    typed = shlex.split(output.split(before)[1].splitlines()[0])
     assert typed[:2] == ["seisblock", "respond"]
     document = answer(*typed[2:], "--runs", "0")
     assert [result["component"] for result in document["results"]] == (["EW"] if "EW" in words else ["NS"])
@@ -105,8 +107,8 @@ def test_jump_and_rock_suggest_working_respond_command(words, before, monkeypatc
 def test_slide_warns_of_slender_bodies(monkeypatch):
     """Below b/h = mu a body rocks; what nothing moves needs no word."""
     monkeypatch.setenv("COLUMNS", "400")
-    shown = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2"]).stdout
-    assert "above 0.2. Other objects: seisblock respond elcentro_1940_ns --width B --height H --mu 0.2" in shown
+    output = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2"]).stdout
+    assert "above 0.2. Other objects: seisblock respond elcentro_1940_ns --width B --height H --mu 0.2" in output
     assert "respond" not in CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.6"]).stdout
 
 
@@ -127,19 +129,19 @@ BAD = (
 )
 
 
-@pytest.mark.parametrize(("words", "said"), BAD, ids=[" ".join(words[-2:]) for words, _ in BAD])
-def test_respond_reports_bad_input_in_one_sentence(words, said):
+@pytest.mark.parametrize(("words", "message"), BAD, ids=[" ".join(words[-2:]) for words, _ in BAD])
+def test_respond_reports_bad_input_in_one_sentence(words, message):
     """Exit 2 or 3, one line, no traceback."""
-    done = run(*words)
-    assert done.exit_code in (2, 3), done.output
-    assert re.search(said, done.stderr) and "Traceback" not in done.output
+    result = run(*words)
+    assert result.exit_code in (2, 3), result.output
+    assert re.search(message, result.stderr) and "Traceback" not in result.output
 
 
 def test_respond_writes_figure_history_and_animation(tmp_path):
     """Figure, history and film are written; the history holds the modes."""
     csv, plot, film = (tmp_path / name for name in ("a.csv", "a.png", "a.html"))
-    done = run("elcentro_1940_ns", *CABINET, "--runs", "0", "--csv", csv, "--plot", plot, "--animate", film)
-    assert done.exit_code == 0, done.stderr
+    result = run("elcentro_1940_ns", *CABINET, "--runs", "0", "--csv", csv, "--plot", plot, "--animate", film)
+    assert result.exit_code == 0, result.stderr
     header, *rows = csv.read_text().splitlines()
     assert header.split(",")[-1] == "phase" and {row.split(",")[-1] for row in rows} >= {"rest", "rock"}
     assert plot.read_bytes().startswith(b"\x89PNG") and "<html" in film.read_text()
@@ -157,8 +159,8 @@ def test_respond_figure_omits_invisible_hops():
     low = solve_respond(Block(0.3, 0.9), Motion.from_arrays(0.67 * motion.horizontal, 0.01, name="NS"), mu=0.9, restitution=0.05)
     high = solve_respond(Block(0.3, 0.9), motion, mu=0.9, restitution=0.7)
     assert 0.0 < low["lift"].max() < 1e-4 < high["lift"].max()
-    labels = [[axis.get_ylabel() for axis in figure([each]).axes] for each in (low, high)]
-    assert ["uplift (cm)" in each for each in labels] == [False, True]
+    labels = [[axis.get_ylabel() for axis in figure([item]).axes] for item in (low, high)]
+    assert ["uplift (cm)" in label for label in labels] == [False, True]
 
 
 def test_respond_figure_has_panels_of_actual_motion_only():
@@ -171,7 +173,7 @@ def test_respond_figure_has_panels_of_actual_motion_only():
         axes = [axis for axis in figure(responses).axes if axis.get_ylabel()]
         return axes, [axis.get_ylabel().split()[0] for axis in axes]
 
-    assert [panels(each)[1] for each in (rests, slides, rocks)] == [["a"], ["a", "x"], ["a", "x", "θ/α"]]
+    assert [panels(item)[1] for item in (rests, slides, rocks)] == [["a"], ["a", "x"], ["a", "x", "θ/α"]]
     axes, labels = panels(rests, rocks)
     assert labels == ["a", "a", "x", "θ/α"]
     assert [bool(axis.get_xlabel()) for axis in axes] == [True, False, False, True]
@@ -179,7 +181,7 @@ def test_respond_figure_has_panels_of_actual_motion_only():
 
 
 @pytest.mark.parametrize(
-    ("mu", "named"),
+    ("mu", "names"),
     [
         (0.55, ["off scale: rocking threshold 5990 gal", "sliding threshold"]),
         (0.9, ["off scale: rocking threshold 9810 gal, sliding threshold 883 gal"]),
@@ -187,11 +189,11 @@ def test_respond_figure_has_panels_of_actual_motion_only():
     ],
     ids=["within sight", "twice the peak", "far away"],
 )
-def test_respond_legend_names_visible_lines_only(mu, named):
+def test_respond_legend_names_visible_lines_only(mu, names):
     """Beside what rests stands how much more it takes; what lies far beyond the picture is told in words, without a line."""
     motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
     (axis,) = figure([solve_respond(Block(10.0 * mu, 0.9), motion, mu=mu)]).axes
-    assert axis.get_legend_handles_labels()[1] == named
+    assert axis.get_legend_handles_labels()[1] == names
     assert axis.get_ylim()[1] == pytest.approx(1.15 * max(300.0, 100.0 * 9.80665 * mu if mu < 0.6 else 0.0), rel=1e-3)
 
 
@@ -218,21 +220,21 @@ def test_respond_reports_overturning_after_record(tmp_path):
 def test_respond_slides_at_friction_equal_to_slenderness():
     """At mu = b/h the closed form of initiation slides: so does the body, and so says the table."""
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.5", "--runs", "0", "--quiet", "--component", "NS", "--no-vertical")
-    shown = run(*words).stdout
-    assert "slides first, above 490 gal" in shown and "no rocking" in shown
+    output = run(*words).stdout
+    assert "slides first, above 490 gal" in output and "no rocking" in output
 
 
 def test_respond_with_tenons_rocks_at_any_friction():
-    """What stands on tenons rocks first, whatever the friction: so say the verdict, the table and the figure."""
+    """A body on tenons rocks first at any friction, in verdict, table and figure."""
     motion = Motion.from_arrays(1.8 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
-    held, free = (solve_respond(Block(0.5, 1.0), motion, mu=0.2, tenon=tenon) for tenon in (0.02, 0.0))
-    assert describe(held) == "NS: remains at rest; rocking threshold 490.3 gal (2.72 times this record's PGA)."
+    holding, free = (solve_respond(Block(0.5, 1.0), motion, mu=0.2, tenon=tenon) for tenon in (0.02, 0.0))
+    assert describe(holding) == "NS: remains at rest; rocking threshold 490.3 gal (2.72 times this record's PGA)."
     assert describe(free) == "NS: remains at rest; sliding threshold 196.1 gal (1.09 times this record's PGA)."
-    levels = [figure([found]).axes[0].get_legend_handles_labels()[1] for found in (held, free)]
+    levels = [figure([result]).axes[0].get_legend_handles_labels()[1] for result in (holding, free)]
     assert "sliding threshold" in levels[1] and "sliding threshold" not in "".join(levels[0])
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.2", "--tenon", "2cm", "--runs", "0", "--quiet", "--component", "NS")
-    shown = " ".join(run(*words).stdout.split())
-    assert "tenons 2.0 cm; out of the mortises: mu 0.2, kinetic 0.2; rocks first, above 490 gal" in shown
+    output = " ".join(run(*words).stdout.split())
+    assert "tenons 2.0 cm; out of the mortises: mu 0.2, kinetic 0.2; rocks first, above 490 gal" in output
 
 
 @pytest.mark.parametrize(
@@ -245,8 +247,8 @@ def test_respond_with_tenons_rocks_at_any_friction():
 )
 def test_probability_sentence_begins_with_probability_interval_and_samples(fallen, begins):
     """Result first, then its interval and the number of samples."""
-    found = Probability(20, fallen / 20, 0.5, (0.0, 0.3), 0.01, {"q05": 0.0, "q95": 0.0}, ParameterVariation(), 0)
-    assert probability_sentence(found).startswith(begins)
+    result = Probability(20, fallen / 20, 0.5, (0.0, 0.3), 0.01, {"q05": 0.0, "q95": 0.0}, ParameterVariation(), 0)
+    assert probability_sentence(result).startswith(begins)
 
 
 @pytest.mark.parametrize(
@@ -258,8 +260,8 @@ def test_probability_sentence_begins_with_probability_interval_and_samples(falle
 )
 def test_respond_omits_quantiles_below_half_millimetre(q05, q95, ends):
     """Quantiles of less than half a millimetre are no interval to tell."""
-    found = Probability(40, 0.1, 0.5, (0.0, 0.3), 0.01, {"q05": q05, "q95": q95}, ParameterVariation(), 0)
-    assert probability_sentence(found).endswith(ends)
+    result = Probability(40, 0.1, 0.5, (0.0, 0.3), 0.01, {"q05": q05, "q95": q95}, ParameterVariation(), 0)
+    assert probability_sentence(result).endswith(ends)
 
 
 @pytest.mark.parametrize(
@@ -272,13 +274,13 @@ def test_respond_omits_quantiles_below_half_millimetre(q05, q95, ends):
 )
 def test_respond_varies_given_inset_about_itself(inset, worn):
     """As far as a fifth of the base is left: a stone worn almost to nothing is no error."""
-    shown = run("elcentro_1940_ns", *CABINET, "--inset", inset, "--runs", "5", "--quiet")
-    assert shown.exit_code == 0, shown.stderr
-    assert f"±5 %, {worn}, friction" in " ".join(shown.stdout.split())
+    result = run("elcentro_1940_ns", *CABINET, "--inset", inset, "--runs", "5", "--quiet")
+    assert result.exit_code == 0, result.stderr
+    assert f"±5 %, {worn}, friction" in " ".join(result.stdout.split())
 
 
-@pytest.mark.parametrize("told", [("--seed", "3"), ("--moved", "2cm"), ("--vary-size", "0.1"), ("--vary-azimuth", "5")])
-def test_respond_rejects_sampling_options_without_samples(told):
-    shown = run("elcentro_1940_ns", *CABINET, "--runs", "0", *told)
-    assert (shown.exit_code, shown.stdout) == (3, "")
-    assert f"{told[0]} has no effect without samples: give --runs" in shown.stderr
+@pytest.mark.parametrize("text", [("--seed", "3"), ("--moved", "2cm"), ("--vary-size", "0.1"), ("--vary-azimuth", "5")])
+def test_respond_rejects_sampling_options_without_samples(text):
+    result = run("elcentro_1940_ns", *CABINET, "--runs", "0", *text)
+    assert (result.exit_code, result.stdout) == (3, "")
+    assert f"{text[0]} has no effect without samples: give --runs" in result.stderr

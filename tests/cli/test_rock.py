@@ -56,9 +56,9 @@ def pulse(tmp_path):
 
 def test_rock_document_has_result_per_component(run, pulse):
     """One result per component with the keys everyone relies on; north overturns to -x, east stands still."""
-    found = json.loads(run(pulse, "--width", "24cm", "--height", "80cm", "--json").stdout)
-    assert found["schema"] == "seisblock/rock/1"
-    north, east = found["results"]
+    output = json.loads(run(pulse, "--width", "24cm", "--height", "80cm", "--json").stdout)
+    assert output["schema"] == "seisblock/rock/1"
+    north, east = output["results"]
     assert set(north) >= KEYS
     assert (north["component"], east["component"]) == ("NS", "EW")
     assert north["overturned"] is True
@@ -71,25 +71,25 @@ def test_rock_document_has_result_per_component(run, pulse):
     assert east["rocks"] is east["overturned"] is False
     assert east["rocking_start_s"] is east["overturning_time_s"] is None
     assert east["impacts"] == 0
-    assert "Housner1963" in found["citations"]
+    assert "Housner1963" in output["citations"]
 
 
 def test_rock_sizes_in_sun_equal_bundled_gravestone(run, pulse):
     """8 sun by 20.8 sun with edges worn by a twentieth per side is the bundled gravestone."""
     sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--inset", "5%", "--json").stdout)
-    named = json.loads(run(pulse, "--block", "gravestone", "--json").stdout)
-    assert sizes["results"] == named["results"]
-    assert named["parameters"]["block"]["width_m"] == pytest.approx(0.2424)
+    output = json.loads(run(pulse, "--block", "gravestone", "--json").stdout)
+    assert sizes["results"] == output["results"]
+    assert output["parameters"]["block"]["width_m"] == pytest.approx(0.2424)
 
 
 def test_rock_kind_sets_edge_wear(run, pulse):
     """A gravestone by its sizes is the bundled one; furniture is sharp, an inset goes before the kind, and a file tells its own."""
     sizes = ("--width", "8sun", "--height", "20.8sun", "--perturb", "4", "--json")
-    named = json.loads(run(pulse, "--block", "gravestone", "--perturb", "4", "--json").stdout)
-    assert json.loads(run(pulse, *sizes, "--kind", "gravestone").stdout)["results"] == named["results"]
+    output = json.loads(run(pulse, "--block", "gravestone", "--perturb", "4", "--json").stdout)
+    assert json.loads(run(pulse, *sizes, "--kind", "gravestone").stdout)["results"] == output["results"]
     insets = [
-        json.loads(run(pulse, *sizes, *more).stdout)["parameters"]["block"]["inset_m"]
-        for more in ((), ("--kind", "furniture"), ("--kind", "gravestone", "--inset", "1cm"))
+        json.loads(run(pulse, *sizes, *extra).stdout)["parameters"]["block"]["inset_m"]
+        for extra in ((), ("--kind", "furniture"), ("--kind", "gravestone", "--inset", "1cm"))
     ]
     assert insets == pytest.approx([0.0, 0.0, 0.01])
     refused = run(pulse, "--block", "gravestone", "--kind", "statue")
@@ -99,8 +99,8 @@ def test_rock_kind_sets_edge_wear(run, pulse):
 def test_rock_two_layer_body_is_one_rigid_block(run, pulse):
     """The Chozu-sha as one rigid block rocks above g x_G/y_G."""
     centroid = (1303.7 * (1.84 + 0.53) + 160.0 * 0.92) / 1463.7
-    found = json.loads(run(pulse, "--block", "chozusha", "--component", "NS", "--json").stdout)
-    assert found["results"][0]["threshold_m_s2"] == pytest.approx(9.80665 * 1.04 / centroid, rel=1e-12)
+    output = json.loads(run(pulse, "--block", "chozusha", "--component", "NS", "--json").stdout)
+    assert output["results"][0]["threshold_m_s2"] == pytest.approx(9.80665 * 1.04 / centroid, rel=1e-12)
 
 
 def test_rock_reads_body_file(run, pulse, tmp_path):
@@ -109,53 +109,53 @@ def test_rock_reads_body_file(run, pulse, tmp_path):
         'kind = "block"\nname = "statue"\nwidth = "40cm"\nheight = 1.6\n'
         'centroid_height = "70cm"\ncentroid_offset = 0.05\nrestitution = 0.7\n'
     )
-    found = json.loads(run(pulse, "--block", "statue.toml", "--component", "NS", "--json").stdout)["results"][0]
-    assert found["restitution"] == 0.7
-    assert found["threshold_m_s2"] == pytest.approx(9.80665 * 0.15 / 0.7)
+    result = json.loads(run(pulse, "--block", "statue.toml", "--component", "NS", "--json").stdout)["results"][0]
+    assert result["restitution"] == 0.7
+    assert result["threshold_m_s2"] == pytest.approx(9.80665 * 0.15 / 0.7)
 
 
 def test_rock_azimuth_180_mirrors_azimuth_0(run, pulse):
     """--azimuth 0 is north; 180 is its mirror image."""
-    found = json.loads(run(pulse, "--width", 0.24, "--height", 0.8, "--azimuth", "0,180", "--json").stdout)["results"]
-    assert [r["component"] for r in found] == ["0", "180"]
-    assert [r["overturned_towards"] for r in found] == ["-x", "+x"]
-    assert found[0]["overturning_time_s"] == pytest.approx(found[1]["overturning_time_s"], abs=1e-12)
+    results = json.loads(run(pulse, "--width", 0.24, "--height", 0.8, "--azimuth", "0,180", "--json").stdout)["results"]
+    assert [r["component"] for r in results] == ["0", "180"]
+    assert [r["overturned_towards"] for r in results] == ["-x", "+x"]
+    assert results[0]["overturning_time_s"] == pytest.approx(results[1]["overturning_time_s"], abs=1e-12)
 
 
 def test_rock_margin_and_probability_of_pulse(run, pulse):
     """One pulse: safe below one factor, unsafe above; the probability lies within its interval."""
     answer = run(pulse, "--width", 0.24, "--height", 0.8, "--component", "NS", "--margin", "--perturb", 50, "--json")
-    found = json.loads(answer.stdout)["results"][0]
-    first = found["margin"]["windows"][0]
-    assert first == {"first": 0.0, "last": found["margin"]["flips"][0], "overturned": False}
-    assert found["margin"]["nearest_flip"] < 1
-    low, high = found["perturbation"]["probability_interval"]
-    assert low <= found["perturbation"]["probability"] <= high
-    assert found["perturbation"]["runs"] == 50
-    assert found["margin"]["first_fall"] == found["margin"]["flips"][0]
-    assert found["perturbation"]["interval_of"] == "parameter variation only"
+    result = json.loads(answer.stdout)["results"][0]
+    first = result["margin"]["windows"][0]
+    assert first == {"first": 0.0, "last": result["margin"]["flips"][0], "overturned": False}
+    assert result["margin"]["nearest_flip"] < 1
+    low, high = result["perturbation"]["probability_interval"]
+    assert low <= result["perturbation"]["probability"] <= high
+    assert result["perturbation"]["runs"] == 50
+    assert result["margin"]["first_fall"] == result["margin"]["flips"][0]
+    assert result["perturbation"]["interval_of"] == "parameter variation only"
 
 
 def test_rock_margin_states_first_overturning_factor(run):
     """It falls from some factor on, the first one found; the share of versions stands beside it, with what was varied (N11, N12)."""
-    shown = " ".join(
+    output = " ".join(
         run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--kind", "gravestone", "--margin", "--details").stdout.split()
     )
-    assert "scale factor to overturning 1.13 (smallest of the factors up to 3 in steps of 0.002)" in shown
-    assert shown.index("overturning 1.13") < shown.index("overturning at scale factors") < shown.index("overturning probability")
-    assert ", parameter variation only)." in shown
-    assert "samples with size ±5 %" in shown
+    assert "scale factor to overturning 1.13 (smallest of the factors up to 3 in steps of 0.002)" in output
+    assert output.index("overturning 1.13") < output.index("overturning at scale factors") < output.index("overturning probability")
+    assert ", parameter variation only)." in output
+    assert "samples with width and height ±5 %" in output
 
 
 def test_rock_states_meaning_of_zero_share(run):
     """None of 60 versions falls, and the line says what that is worth on real rocks, not 0.000 (N12)."""
     words = ("elcentro_1940_ns.csv", "--width", "40cm", "--height", "80cm", "--perturb", 60)
-    shown = " ".join(run(*words).stdout.split())
+    output = " ".join(run(*words).stdout.split())
     assert (
         "overturning probability below 3 % (0 of 60 samples). On shaking tables, 3 % of the runs with no overturning sample did overturn."
-        in shown
+        in output
     )
-    assert "overturning probability 0" not in shown
+    assert "overturning probability 0" not in output
     assert json.loads(run(*words, "--json").stdout)["results"][0]["perturbation"]["probability"] == 0.0
 
 
@@ -163,13 +163,13 @@ def test_rock_first_line_states_insufficient_friction(run):
     """With --mu the verdict says whether rocking needs more, before any number; without it nothing was asked (DESIGN.md section 11)."""
     words = ("synthetic_jma.csv", "--width", "8sun", "--height", "80cm", "--component", "NS")
     for mu, says in ((0.2, "0.2 < b/h = 0.303 the block slides instead of rocking"), (0.32, "with 0.32 the block slides while rocking")):
-        shown = " ".join(run(*words, "--mu", mu).stdout.split())
-        assert says in shown
-        assert shown.index(says) < shown.index("rocking start (s)")
+        text = " ".join(run(*words, "--mu", mu).stdout.split())
+        assert says in text
+        assert text.index(says) < text.index("rocking start (s)")
         assert json.loads(run(*words, "--mu", mu, "--json").stdout)["results"][0]["friction_suffices"] is False
     assert "the block slides" not in run(*words, "--mu", 2).stdout
-    found = json.loads(run(*words, "--mu", 2, "--json").stdout)
-    assert (found["results"][0]["friction_suffices"], found["parameters"]["mu"]) == (True, 2.0)
+    output = json.loads(run(*words, "--mu", 2, "--json").stdout)
+    assert (output["results"][0]["friction_suffices"], output["parameters"]["mu"]) == (True, 2.0)
     assert "friction_suffices" not in json.loads(run(*words, "--json").stdout)["results"][0]
     assert run(*words, "--mu", -1).exit_code == 3
 
@@ -177,20 +177,23 @@ def test_rock_first_line_states_insufficient_friction(run):
 def test_rock_names_disagreeing_models(run):
     """One sentence: in how many models it falls, which, and by what factor they are apart (N15)."""
     answer = run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--details")
-    shown = " ".join(answer.stdout.split())
-    assert "NS: overturns in 2 of 5 models: gravestone criterion (0.90), Ishiyama's limits of acceleration and velocity with " in shown
-    assert "velocity with sharp edges (0.95); does not overturn in the others:" in shown
-    assert "(largest over smallest 2.0). The gravestone criterion, derived for such objects, predicts overturning." in shown
-    (found,) = json.loads(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--json").stdout)["results"]
-    assert (found["agreement"]["falls"], found["agreement"]["models"]) == (2, 5)
-    assert found["agreement"]["spread"] == pytest.approx(1.98, abs=0.01)
+    output = " ".join(answer.stdout.split())
+    assert "NS: overturns in 2 of 5 models: gravestone criterion (0.90), Ishiyama's limits of acceleration and velocity with " in output
+    assert "velocity with sharp edges (0.95); does not overturn in the others:" in output
+    assert "(largest over smallest 2.0). The gravestone criterion, derived for such objects, predicts overturning." in output
+    (result,) = json.loads(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--json").stdout)["results"]
+    assert (result["agreement"]["falls"], result["agreement"]["models"]) == (2, 5)
+    assert result["agreement"]["spread"] == pytest.approx(1.98, abs=0.01)
 
 
 def test_rock_writes_table_figure_and_history(run, pulse, tmp_path):
     """The table says the verdict in words; the files hold the figure and the history in SI."""
     answer = run(pulse, "--width", 0.24, "--height", 0.8, "--plot", "rock.png", "--csv", "rock.csv", "--si")
     assert answer.exit_code == 0, answer.output
-    assert re.match(r"NS: overturns to -NS at \d+\.\d\d s\.\n", answer.stdout)  # the answer first, with its number
+    first, second, third, *_ = answer.stdout.splitlines()  # the probability first, the single run after it
+    assert first == "object: likely overturns (100 %); worst direction NS"
+    assert second == "NS: likely overturns (100 %; factor to overturning 0.50-0.71 by model)"
+    assert re.match(r"NS: overturns to -NS at \d+\.\d\d s\.$", third)
     assert "EW: remains at rest; rocking threshold 2.9420 m/s²." in answer.stdout
     assert "m/s²" in answer.stdout
     assert (tmp_path / "rock.png").stat().st_size > 10_000
@@ -233,7 +236,7 @@ def test_rock_writes_table_figure_and_history(run, pulse, tmp_path):
     ],
 )
 def test_rock_reports_bad_input_in_one_sentence(run, pulse, words, says):
-    """What a user can get wrong is answered by one sentence, exit 2 or 3, no traceback."""
+    """Bad input gives one sentence, exit code 2 or 3, no traceback."""
     answer = run(pulse, *words)
     assert answer.exit_code in (2, 3)
     assert says in " ".join(answer.stderr.split())
@@ -261,13 +264,13 @@ def test_rock_vertical_requires_vertical_component(run, tmp_path):
 def test_rock_flags_sensitive_outcome_everywhere(run):
     """A verdict that a 2 % change of the record flips is flagged in table, document and on stderr."""
     words = ("--width", "24cm", "--height", "72cm", "--scale", 0.5, "--component", "EW")
-    shown, found = run(*words), json.loads(run(*words, "--json").stdout)
-    assert found["results"][0]["verdict_flips_within_2_percent"] is True
-    assert any("sensitive to the amplitude" in text for text in found["warnings"])
-    factor = found["results"][0]["flips_at_factor"]
-    would = "does not overturn" if found["results"][0]["overturned"] else "overturns"
-    assert f"; {would} at a scale factor of {factor:.3f}" in " ".join(shown.stdout.split())
-    assert f"sensitive to the amplitude: it changes at {factor:.3f} times the record" in shown.stderr
+    output, result = run(*words), json.loads(run(*words, "--json").stdout)
+    assert result["results"][0]["verdict_flips_within_2_percent"] is True
+    assert any("sensitive to the amplitude" in text for text in result["warnings"])
+    factor = result["results"][0]["flips_at_factor"]
+    would = "does not overturn" if result["results"][0]["overturned"] else "overturns"
+    assert f"; {would} at a scale factor of {factor:.3f}" in " ".join(output.stdout.split())
+    assert f"sensitive to the amplitude: it changes at {factor:.3f} times the record" in output.stderr
 
 
 def test_rock_animates_first_component(run, pulse, tmp_path):
@@ -279,3 +282,12 @@ def test_rock_animates_first_component(run, pulse, tmp_path):
     assert refused.exit_code == 3
     assert ".gif, .mp4 or .html" in refused.stderr
     assert not list(tmp_path.glob("*.avi"))
+
+
+def test_rock_writes_no_animation_of_a_block_at_rest(tmp_path, monkeypatch):
+    """The answer is printed, and a warning says why there is no file."""
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(main, ["rock", "sine:20gal@1Hz,2s", "--width", "0.3", "--height", "0.6", "--animate", "film.gif"])
+    assert result.exit_code == 0
+    assert "remains at rest: no animation written" in result.stderr
+    assert not (tmp_path / "film.gif").exists()

@@ -1,4 +1,4 @@
-"""Where several records stand in one table of ``--csv``, its first column says which; a single record's has none."""
+"""Tables of ``--csv`` of several records begin with a column of the record; that of a single record has none."""
 
 import csv
 import math
@@ -15,7 +15,7 @@ OF_EVERY_KIND = (
     ["respond", "--block", "gravestone", "--mu", "0.5"],
     ["jump"],
     ["uplift", "--width", "1m", "--height", "3m", "--frequency-vertical", "8"],
-    ["stack", "--stones", "column"],
+    ["stack", "--stones", "column", "--runs", "0"],
     ["criteria", "--block", "gravestone"],
     ["spectrum", "--sizes", "1", "--height-over-width", "3"],
     ["spectrum", "--kind", "sliding", "--mu", "0.05"],
@@ -38,8 +38,8 @@ def test_csv_of_several_records_starts_with_record_index(words, two_records, tmp
     """The rows of each record are those of a table of it alone, with its place in the list before them."""
     tables = {}
     for name, records in (("both", two_records), ("first", two_records[:1]), ("second", two_records[1:])):
-        done = CliRunner().invoke(main, [*words, *records, "--component", "NS", "--csv", f"{name}.csv"])
-        assert done.exit_code == 0, done.output
+        result = CliRunner().invoke(main, [*words, *records, "--component", "NS", "--csv", f"{name}.csv"])
+        assert result.exit_code == 0, result.output
         with (tmp_path / f"{name}.csv").open(newline="") as stream:
             tables[name] = list(csv.reader(stream))
     head, *rows = tables["both"]

@@ -32,7 +32,7 @@ def test_slide_with_mu_alone_uses_sample():
     """``seisblock slide --mu 0.2`` works as written, says which record it took, and fits 80 columns."""
     result = run("--mu", "0.2")
     assert result.exit_code == 0
-    assert "synthetic_jma.csv" in result.stderr
+    assert result.stdout.startswith("Record: synthetic_jma.csv (bundled, synthetic); none given.\n")
     assert "residual (cm)" in result.stdout
     assert max(map(len, result.stdout.splitlines())) <= 80
 
@@ -48,9 +48,23 @@ def test_slide_reports_slip_after_record(tmp_path, arguments, says):
     """0.3 g for 2 s over friction of 0.2: (0.1 g) 2^2/2 in the record, half as much after it; a slope that is too steep has no end."""
     path = tmp_path / "push.csv"
     path.write_text("EW\n" + "-2.9419950000\n" * 201)
-    found = " ".join(run(path, "--mu", 0.2, "--units", "m/s2", "--dt", 0.01, *arguments).stdout.split())
-    assert says in found
-    assert "ends -" not in found
+    output = " ".join(run(path, "--mu", 0.2, "--units", "m/s2", "--dt", 0.01, *arguments).stdout.split())
+    assert says in output
+    assert "ends -" not in output
+
+
+@pytest.mark.parametrize(
+    ("options", "base"), [(("--vertical",), "vertical motion"), (("--vertical-scale", 0.5), "vertical motion scaled by 0.5")]
+)
+def test_slide_heading_states_factor_of_vertical_motion(options, base):
+    """A factor of 1 is not printed."""
+    assert f"Sliding, mu 0.2, kinetic 0.2, {base}\n" in run("hanmer_springs_2016", "--mu", 0.2, *options).stdout
+
+
+def test_record_line_names_analytic_motion_once():
+    """The format of an analytic motion is its kind."""
+    text = run("sine:300gal@1.5Hz,10s", "--mu", 0.2).stdout
+    assert "sine:300gal@1.5Hz,10s  analytic motion, 6001 samples, 600 Hz\n" in text
 
 
 def test_slide_document_equals_solve_slide():
@@ -63,9 +77,9 @@ def test_slide_document_equals_solve_slide():
     record = read("synthetic_jma.csv")
     for entry in document["results"]:
         assert set(entry) >= KEYS
-        alone = seisblock.solve_slide(sliding_base(0.2, kappa=0.5), seisblock.motion_of(record, entry["component"]), vertical=1.0)
-        assert entry["max_slip_m"] == alone.outcome.max_slip_m
-        assert entry["residual_slip_m"] == alone.outcome.residual_slip_m
+        single = seisblock.solve_slide(sliding_base(0.2, kappa=0.5), seisblock.motion_of(record, entry["component"]), vertical=1.0)
+        assert entry["max_slip_m"] == single.outcome.max_slip_m
+        assert entry["residual_slip_m"] == single.outcome.residual_slip_m
 
 
 def test_slide_component_accepts_azimuth():
@@ -180,7 +194,7 @@ def test_slide_csv_has_both_limits_of_each_event(tmp_path):
     ],
 )
 def test_slide_reports_bad_input_in_one_sentence(arguments, code, says):
-    """What a user can get wrong ends with exit code 2 or 3, a sentence that says so, and no traceback."""
+    """Bad input gives one sentence, exit code 2 or 3, no traceback."""
     result = run(*arguments)
     assert result.exit_code == code, result.output
     assert says in result.stderr
@@ -195,18 +209,27 @@ def test_slide_rejects_components_of_unequal_length():
 
 def test_slide_study_reports_progress_to_the_end():
     """A study tells how many of its runs are done, and ends with all of them."""
-    told = []
+    collected = []
     motion = seisblock.motion_of(read("elcentro_1940_ns"), "NS")
     seisblock.studies.slide_study(
-        [0.1, 0.2, 0.3], motion, kappa=[0.5, 1.0], progress=lambda done, total: told.append((done, total)), workers=2
+        [0.1, 0.2, 0.3], motion, kappa=[0.5, 1.0], progress=lambda result, total: collected.append((result, total)), workers=2
     )
-    assert told[-1] == (6, 6)
-    assert [done for done, _ in told] == sorted(done for done, _ in told)
+    assert collected[-1] == (6, 6)
+    assert [completed for completed, _ in collected] == sorted(completed for completed, _ in collected)
 
 
 def test_slide_prints_outcome_first_or_record_name():
     """One record: the verdict is the first line. Two: each begins with the line that says which it is."""
-    one = run("elcentro_1940_ns", "--mu", "0.2", "--quiet").stdout.splitlines()
-    assert one[0].startswith("NS: slides, maximum displacement 3.25 mm") and one[2].startswith("elcentro_1940_ns")
+    first = run("elcentro_1940_ns", "--mu", "0.2", "--quiet").stdout.splitlines()
+    assert first[0].startswith("NS: slides, maximum displacement 3.25 mm") and first[2].startswith("elcentro_1940_ns")
     two = run("elcentro_1940_ns", "synthetic_jma", "--mu", "0.2", "--component", "NS", "--quiet").stdout.splitlines()
     assert [line[:3] for line in two if line.startswith(("elcentro", "SYN", "NS: slides"))] == ["elc", "NS:", "SYN", "NS:"]
+
+
+def test_slide_csv_has_no_round_off_in_friction(tmp_path):
+    """The ratio of kinetic to static friction is written as given, and so is their product."""
+    path = tmp_path / "study.csv"
+    assert run("--mu", "0.05,0.1", "--kappa", "0.2,0.3", "--component", "NS", "--csv", path).exit_code == 0
+    with path.open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [(row["kappa"], row["mu_kinetic"]) for row in rows] == [("0.2", "0.01"), ("0.3", "0.015"), ("0.2", "0.02"), ("0.3", "0.03")]

@@ -29,9 +29,9 @@ def run(tmp_path, monkeypatch):
 
 def test_rocking_spectrum_equals_solve_rock(run):
     """A matrix with a row per size and a column per slenderness, equal to what rock says of each block."""
-    found = json.loads(run(*GRID, "--json").stdout)
-    assert found["schema"] == "seisblock/spectrum/1"
-    result = found["results"][0]
+    output = json.loads(run(*GRID, "--json").stdout)
+    assert output["schema"] == "seisblock/spectrum/1"
+    result = output["results"][0]
     assert np.shape(result["max_rotation_ratio"]) == np.shape(result["overturned"]) == (3, 2)
     for i, size in enumerate((0.3, 1.0, 3.0)):
         assert result["frequency_parameter_rad_s"][i] == pytest.approx(math.sqrt(1.5 * 9.80665 / size))
@@ -49,7 +49,7 @@ def test_spectrum_frequency_parameter_and_slenderness_equal_sizes(run):
     p = ",".join(repr(math.sqrt(1.5 * 9.80665 / size)) for size in (0.3, 1.0, 3.0))
     alpha = ",".join(repr(math.atan(1 / ratio)) for ratio in (2, 4))
     words = ("--component", "NS", "--scale", 0.6, "--frequency-parameter", p, "--slenderness-rad", alpha, "--json")
-    ours, theirs = (json.loads(run(*some).stdout)["results"][0] for some in (words, (*GRID, "--json")))
+    ours, theirs = (json.loads(run(*subset).stdout)["results"][0] for subset in (words, (*GRID, "--json")))
     assert ours["overturned"] == theirs["overturned"]
     np.testing.assert_allclose(ours["max_rotation_ratio"], theirs["max_rotation_ratio"], rtol=1e-6)
 
@@ -98,11 +98,11 @@ def test_spectrum_reports_bad_input_in_one_sentence(run, words, says):
 def test_sliding_spectrum_equals_solve_slide(run, tmp_path):
     """Each point is a run of slide; more friction, in the end, no slip."""
     answer = run("--kind", "sliding", "--mu", "0.1,0.3,2", "--component", "NS", "--json", "--csv", "s.csv", "--plot", "s.png")
-    found = json.loads(answer.stdout)["results"][0]
-    for mu, slip in zip(found["mu"], found["max_slip_m"], strict=True):
+    result = json.loads(answer.stdout)["results"][0]
+    for mu, slip in zip(result["mu"], result["max_slip_m"], strict=True):
         single = json.loads(CliRunner().invoke(main, ["slide", "--mu", str(mu), "--component", "NS", "--json"]).stdout)["results"][0]
         assert slip == pytest.approx(single["max_slip_m"], rel=1e-9, abs=1e-15)
-    assert found["max_slip_m"][0] > 0 == found["max_slip_m"][-1]
+    assert result["max_slip_m"][0] > 0 == result["max_slip_m"][-1]
     assert len(list(csv.DictReader((tmp_path / "s.csv").open()))) == 3
     assert (tmp_path / "s.png").stat().st_size > 5_000
 
@@ -110,32 +110,32 @@ def test_sliding_spectrum_equals_solve_slide(run, tmp_path):
 def test_mode_map_equals_solve_respond(run, tmp_path):
     """Each cell is what respond says of the same body; the file holds every cell; the figure is drawn, of shapes and of sizes."""
     answer = run("--kind", "modes", "--mu", "0.3,0.9", "--height-over-width", "4,1", "--component", "NS", "--json", "--csv", "m.csv")
-    found = json.loads(answer.stdout)["results"][0]
-    assert np.shape(found["mode"]) == np.shape(found["slip_path_m"]) == (2, 2)
+    entry = json.loads(answer.stdout)["results"][0]
+    assert np.shape(entry["mode"]) == np.shape(entry["slip_path_m"]) == (2, 2)
     for i, ratio in enumerate((0.25, 1.0)):
-        assert found["b_over_h"][i] == pytest.approx(ratio)
+        assert entry["b_over_h"][i] == pytest.approx(ratio)
         alpha = math.atan(ratio)
         size = ("--width", repr(math.sin(alpha)), "--height", repr(math.cos(alpha)))
         for j, mu in enumerate(("0.3", "0.9")):
             words = ["respond", "--component", "NS", "--mu", mu, *size, "--runs", "0", "--json"]
-            one = json.loads(CliRunner().invoke(main, words).stdout)["results"][0]
-            assert (found["mode"][i][j] == "overturned") == one["overturned"]
-            assert found["slip_path_m"][i][j] == pytest.approx(one["slip_path_m"], rel=1e-9)
-    assert found["initiation"]["acceleration_ratio"] > 1.0
+            first = json.loads(CliRunner().invoke(main, words).stdout)["results"][0]
+            assert (entry["mode"][i][j] == "overturned") == first["overturned"]
+            assert entry["slip_path_m"][i][j] == pytest.approx(first["slip_path_m"], rel=1e-9)
+    assert entry["initiation"]["acceleration_ratio"] > 1.0
     assert len(list(csv.DictReader((tmp_path / "m.csv").open()))) == 4
     for axis in (("--steps", "12"), ("--sizes", "0.5,1,2", "--height-over-width", "3", "--mu", "0.2,0.5"), ("--mu", "0.3", "--steps", "2")):
-        drawn = run("--kind", "modes", *axis, "--plot", "m.png")
-        assert drawn.exit_code == 0, drawn.output
-        assert "bodies" in drawn.stdout and "of the effective weight" in drawn.stdout
+        result = run("--kind", "modes", *axis, "--plot", "m.png")
+        assert result.exit_code == 0, result.output
+        assert "bodies" in result.stdout and "of the effective weight" in result.stdout
         assert (tmp_path / "m.png").stat().st_size > 10_000
 
 
 def test_mode_map_uses_vertical_motion_if_present(run):
     """As respond does: unless it is refused, and never asked of a record without one."""
     grid = ("--kind", "modes", "--mu", "0.4", "--height-over-width", "2", "--component", "NS", "--json")
-    with_it, without = (json.loads(run(*grid, *more).stdout) for more in ((), ("--no-vertical",)))
+    with_it, without = (json.loads(run(*grid, *extra).stdout) for extra in ((), ("--no-vertical",)))
     assert with_it["parameters"]["vertical"] and not without["parameters"]["vertical"]
-    ratios = [each["results"][0]["initiation"]["acceleration_ratio"] for each in (with_it, without)]
+    ratios = [item["results"][0]["initiation"]["acceleration_ratio"] for item in (with_it, without)]
     assert ratios[0] != ratios[1]
     refused = run("elcentro_1940_ns", "--kind", "modes", "--vertical")
     assert refused.exit_code == 3 and "vertical" in refused.stderr
@@ -144,11 +144,13 @@ def test_mode_map_uses_vertical_motion_if_present(run):
 def test_spectrum_reports_progress_per_chunk(monkeypatch):
     """The bar hears of every chunk and ends at the number of runs."""
     monkeypatch.setattr(verdicts, "CHUNK_SIZE", 20_000)
-    told = []
+    collected = []
     motion = Motion.from_arrays(3 * np.sin(np.arange(400) * 0.1), 0.02)
-    rocking_spectrum(np.linspace(0.5, 3, 20), np.linspace(0.1, 0.4, 20), motion, progress=lambda done, total: told.append((done, total)))
-    assert told[-1] == (400, 400)
-    assert len(told) == 8
+    rocking_spectrum(
+        np.linspace(0.5, 3, 20), np.linspace(0.1, 0.4, 20), motion, progress=lambda result, total: collected.append((result, total))
+    )
+    assert collected[-1] == (400, 400)
+    assert len(collected) == 8
 
 
 def test_spectrum_obeys_similarity():
@@ -158,12 +160,12 @@ def test_spectrum_obeys_similarity():
     large = rocking_spectrum([2.0, 4.0], [0.15, 0.3], Motion.from_arrays(a, 0.04))
     np.testing.assert_array_equal(small.overturned, large.overturned)
     np.testing.assert_allclose(small.max_rotation_ratio, large.max_rotation_ratio, rtol=1e-9)
-    one = solve_rock(Block(0.5 * math.sin(0.15), 0.5 * math.cos(0.15)), Motion.from_arrays(a, 0.02)).outcome
-    assert small.max_rotation_ratio[0, 0] == pytest.approx(one.max_rotation_ratio, rel=1e-12)
+    first = solve_rock(Block(0.5 * math.sin(0.15), 0.5 * math.cos(0.15)), Motion.from_arrays(a, 0.02)).outcome
+    assert small.max_rotation_ratio[0, 0] == pytest.approx(first.max_rotation_ratio, rel=1e-12)
 
 
 @pytest.mark.parametrize("option", ["--height-over-width", "--sizes", "--frequency-parameter"])
 def test_spectrum_rejects_overflowing_numbers(option):
     """Their reciprocals and squares leave the finite numbers: one sentence, no warning of numpy."""
-    done = CliRunner().invoke(main, ["spectrum", option, "1e-320", "--steps", "2"])
-    assert done.exit_code == 3 and "is outside the computable range" in " ".join(done.stderr.split())
+    result = CliRunner().invoke(main, ["spectrum", option, "1e-320", "--steps", "2"])
+    assert result.exit_code == 3 and "is outside the computable range" in " ".join(result.stderr.split())

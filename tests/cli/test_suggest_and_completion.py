@@ -1,4 +1,4 @@
-"""A name that is misspelt is asked back, and a shell knows the names there are."""
+"""Suggestions for misspelt names, missing parameters, and shell completion."""
 
 import click
 import pytest
@@ -6,9 +6,7 @@ from click.shell_completion import ShellComplete
 from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, main
-from seisblock.cli.shell_completion import SWEEP_COMMANDS
 from seisblock.cli.suggest import closest_name
-from seisblock.core.i18n import use_locale
 
 MISSPELT = (
     (("messure",), "measure"),
@@ -43,27 +41,41 @@ LIKE_NOTHING = (
 )
 
 
-@pytest.mark.parametrize(("line", "meant"), MISSPELT, ids=lambda each: " ".join(each) if isinstance(each, tuple) else each)
-def test_unknown_name_suggests_nearest(line, meant, tmp_path, monkeypatch):
-    """F6: whatever is named, command, option, record, body, stone, cemetery, component or pair: in English and in Japanese."""
+@pytest.mark.parametrize(("line", "suggestion"), MISSPELT, ids=lambda item: " ".join(item) if isinstance(item, tuple) else item)
+def test_unknown_name_suggests_nearest(line, suggestion, tmp_path, monkeypatch):
+    """Commands, options, records, bodies, stones, cemeteries, components and pairs, in English and in Japanese (F6)."""
     monkeypatch.chdir(tmp_path)
-    told = CliRunner().invoke(main, list(line))
-    assert told.exit_code in (2, 3)
-    asked = " ".join(told.stderr.split()).lower().partition("did you mean")[2]
-    assert meant.lower() in asked
+    result = CliRunner().invoke(main, list(line))
+    assert result.exit_code in (2, 3)
+    hint = " ".join(result.stderr.split()).lower().partition("did you mean")[2]
+    assert suggestion.lower() in hint
     japanese = " ".join(CliRunner().invoke(main, ["--lang", "ja", *line]).stderr.split())
-    assert f"{meant} のことでしょうか" in japanese
+    assert f"{suggestion} のことでしょうか" in japanese
+
+
+@pytest.mark.parametrize(
+    ("line", "english", "japanese"),
+    [
+        (("overturn-rate",), "Missing option '--cemetery'.", "オプション '--cemetery' は必須です。"),
+        (("fit",), "Missing argument 'OUTCOMES'.", "引数 'OUTCOMES' は必須です。"),
+        (("completion",), "Missing argument '{bash|zsh|fish}'. Choose from:", "引数 '{bash|zsh|fish}' は必須です。次から選んでください："),
+    ],
+)
+def test_missing_parameter_is_named_in_a_sentence(line, english, japanese):
+    """The Japanese sentence ends in its own full stop, not in that of click."""
+    assert english in CliRunner().invoke(main, line).stderr
+    assert japanese in CliRunner().invoke(main, ["--lang", "ja", *line]).stderr
 
 
 @pytest.mark.parametrize("line", LIKE_NOTHING, ids=" ".join)
 def test_unrelated_name_suggests_nothing(line):
-    """A guess that is none would lead astray."""
-    told = CliRunner().invoke(main, [*line, *(("--mu", "0.2") if line[0] == "slide" else ())])
-    assert told.exit_code in (2, 3) and "did you mean" not in told.stderr.lower()
+    """No suggestion for a name that resembles none."""
+    result = CliRunner().invoke(main, [*line, *(("--mu", "0.2") if line[0] == "slide" else ())])
+    assert result.exit_code in (2, 3) and "did you mean" not in result.stderr.lower()
 
 
 @pytest.mark.parametrize(
-    ("typed", "meant"),
+    ("typed", "suggestion"),
     [
         ("xyz", None),
         ("ROCK", "rock"),
@@ -75,17 +87,17 @@ def test_unrelated_name_suggests_nothing(line):
         ("jmp", "jump"),
     ],
 )
-def test_suggestion_allows_one_typo_or_prefix(typed, meant):
+def test_suggestion_allows_one_typo_or_prefix(typed, suggestion):
     """Nothing else is: of a long name two slips."""
-    assert closest_name(typed, COMMANDS) == meant and closest_name(typed, ()) is None
+    assert closest_name(typed, COMMANDS) == suggestion and closest_name(typed, ()) is None
     assert closest_name("ovreturn-rat", COMMANDS) == "overturn-rate" and closest_name("ovretrn-rat", COMMANDS) is None
 
 
 def completions(*words):
     """Return what a shell is offered for the last word."""
     *before, last = words
-    found = ShellComplete(main, {}, "seisblock", "_SEISBLOCK_COMPLETE").get_completions(before, last)
-    return [item.value for item in found if item.type == "plain"]
+    result = ShellComplete(main, {}, "seisblock", "_SEISBLOCK_COMPLETE").get_completions(before, last)
+    return [item.value for item in result if item.type == "plain"]
 
 
 OF_ROOMS = ("bookcase", "filing_cabinet", "lateral_filing_cabinet", "server_rack", "refrigerator", "display_case")
@@ -98,7 +110,7 @@ OF_ROOMS = ("bookcase", "filing_cabinet", "lateral_filing_cabinet", "server_rack
         (("rock", "--component", ""), ["NS", "EW", "UD", "all", "all-azimuths"]),
         (("slide", "--component", "al"), ["all", "all-azimuths"]),
         (("measure", "--component", "NS,u"), ["NS,UD"]),
-        (("rock", "--block", ""), ["chozusha", "gravestone", "wagata", "lantern", "column", *OF_ROOMS, "statue", "boulder"]),
+        (("rock", "--block", ""), ["chozusha", "gravestone", "wagata", "lantern", "column", *OF_ROOMS, "statue", "machine", "boulder"]),
         (("jump", "--block", ""), ["chozusha"]),
         (("body", "bo"), ["boulder.ply"]),
         (("stack", "--stones", ""), ["wagata", "lantern", "column", "statue"]),
@@ -113,7 +125,7 @@ OF_ROOMS = ("bookcase", "filing_cabinet", "lateral_filing_cabinet", "server_rack
         (("spectrum", "--kind", "m"), ["modes"]),
         (("cite", "ro"), ["rock"]),
     ],
-    ids=lambda each: " ".join(each) or "(nothing)",
+    ids=lambda item: " ".join(item) or "(nothing)",
 )
 def test_completion_lists_existing_names(words, names):
     """F6: components, samples, bodies of the kind that is wanted, stones of the pile that is named, cemeteries, surfaces."""
@@ -121,21 +133,21 @@ def test_completion_lists_existing_names(words, names):
 
 
 def test_completion_offers_all_azimuths_where_supported():
-    """A command that sweeps the azimuths says so in its help, and the others do not offer it."""
-    for name in COMMANDS:
-        with use_locale("en"):
-            told = " ".join(CliRunner().invoke(main, [name, "--help"]).stdout.split())
-        assert ("--component all-azimuths" in told) == (name in SWEEP_COMMANDS), name
+    """Of the commands with components, those that sweep the azimuths offer them."""
+    takes_components = [name for name in COMMANDS if any(param.name == "component" for param in main.get_command(None, name).params)]
+    offering = {name for name in takes_components if completions(name, "--component", "all-a")}
+    assert offering == {"batch", "fragility", "respond", "rock", "slide", "spectrum"}
+    assert "jump" in takes_components
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_describes_every_parameter(command):
     """F6: no argument or option stands without a word, and a record stands with what is done to it."""
     context = click.Context(main.get_command(click.Context(main), command))
-    rows = [each.get_help_record(context) for each in context.command.get_params(context) if not getattr(each, "hidden", False)]
+    rows = [param.get_help_record(context) for param in context.command.get_params(context) if not getattr(param, "hidden", False)]
     assert all(meaning.strip() for _, meaning in rows), rows
     assert not [meaning for _, meaning in rows if meaning.count("[required]") > 1]
-    told = CliRunner().invoke(main, [command, "--help"]).stdout
-    assert "Positional arguments" not in told
-    if "[RECORD]..." in told:
-        assert told.count("[RECORD]...") == 2 and "Record options:\n  [RECORD]...  " in told
+    output = CliRunner().invoke(main, [command, "--help"]).stdout
+    assert "Positional arguments" not in output
+    if "[RECORD]..." in output:
+        assert output.count("[RECORD]...") == 2 and "Record options:\n  [RECORD]...  " in output

@@ -23,6 +23,7 @@ IN_GAL = {
     "respond": (*SHORT, *BLOCK, "--mu", "0.5", "--runs", "0"),
     "slide": (*SHORT, "--mu", "0.2"),
     "rock": (*SHORT, *BLOCK),
+    "rigid3d": (*SHORT, *BLOCK, "--mu", "0.5"),
     "jump": SHORT,
     "uplift": (*SHORT, *BLOCK, "--frequency-vertical", "8"),
     "stack": SHORT,
@@ -42,7 +43,7 @@ WITHOUT_A_FIGURE = {"map"}
 
 def options_of(command):
     """Return the names of a command's options."""
-    return {name for each in main.get_command(None, command).params for name in each.opts}
+    return {name for param in main.get_command(None, command).params for name in param.opts}
 
 
 def test_unit_option_exists_where_accelerations_are_shown():
@@ -54,15 +55,15 @@ def test_unit_option_exists_where_accelerations_are_shown():
 def test_unit_option_sets_units_of_text_and_figure(command, tmp_path):
     """F3, F6: with --si no gal, kine, cm or mm is left in the answer or the figure, with --gal no m/s²; one of the two differs."""
     answers = []
-    for unit, other in (("--gal", "m/s²"), ("--si", "(gal|kine|cm|mm)")):
+    for unit, second in (("--gal", "m/s²"), ("--si", "(gal|kine|cm|mm)")):
         path = tmp_path / f"{unit}.svg"
         figure = [] if command in WITHOUT_A_FIGURE else ["--plot", str(path)]
         answer = CliRunner().invoke(main, [command, *IN_GAL[command], unit, *figure, "--quiet"])
         assert answer.exit_code == 0, answer.output
         # letters are outlines in an .svg: each text stands before its own as a comment
-        drawn = " ".join(re.findall(r"<!-- (.*?) -->", path.read_text(encoding="utf-8"))) if figure else ""
-        assert not re.search(rf"(?<!\w){other}(?!\w)", answer.stdout + drawn.replace("gal s", "")), (unit, other)
-        answers.append((answer.stdout, drawn))
+        text = " ".join(re.findall(r"<!-- (.*?) -->", path.read_text(encoding="utf-8"))) if figure else ""
+        assert not re.search(rf"(?<!\w){second}(?!\w)", answer.stdout + text.replace("gal s", "")), (unit, second)
+        answers.append((answer.stdout, text))
     assert answers[0] != answers[1]
 
 
@@ -71,10 +72,10 @@ def test_every_option_is_read_by_its_command():
     left = {}
     for name in COMMANDS:
         tree = ast.parse(inspect.getsource(inspect.unwrap(main.get_command(None, name).callback))).body[0]
-        taken = {each.arg for each in (*tree.args.args, *tree.args.kwonlyargs)}
+        mapping = {item.arg for item in (*tree.args.args, *tree.args.kwonlyargs)}
         read = {node.id for part in tree.body for node in ast.walk(part) if isinstance(node, ast.Name)}
-        assert taken, name
-        if unread := taken - read:
+        assert mapping, name
+        if unread := mapping - read:
             left[name] = unread
     assert left == {}
 

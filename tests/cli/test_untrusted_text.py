@@ -57,24 +57,24 @@ def record(tmp_path, monkeypatch):
 @pytest.mark.parametrize("command", COMMANDS)
 def test_terminal_output_strips_control_characters(command, language, record):
     """No control character reaches the terminal; brackets, dollars and braces are printed as they are."""
-    done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--lang", language])
-    assert done.exception is None, (done.exception, done.stderr)
-    shown = done.stdout + done.stderr
-    assert not set(COMMANDING) & set(shown)
-    assert all(len(line) < 2000 for line in shown.splitlines())
-    assert "\\x1b[31mred\\x07 \\x9b1m\\u202e [bold]loud[/bold] [/] $x_{" in " ".join(shown.split())
-    assert shown.count("long") < 400
+    result = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--lang", language])
+    assert result.exception is None, (result.exception, result.stderr)
+    output = result.stdout + result.stderr
+    assert not set(COMMANDING) & set(output)
+    assert all(len(line) < 2000 for line in output.splitlines())
+    assert "\\x1b[31mred\\x07 \\x9b1m\\u202e [bold]loud[/bold] [/] $x_{" in " ".join(output.split())
+    assert output.count("long") < 400
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_json_round_trips_text(command, record):
     """JSON escapes it, and gives it back."""
-    done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--json", "--quiet"])
-    assert done.exception is None, done.exception
-    assert not set(COMMANDING) & set(done.stdout + done.stderr)
-    told = json.loads(done.stdout)
-    told = told["record"][0] if isinstance(told["record"], list) else told["record"]
-    assert told["source"] == record
+    result = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--json", "--quiet"])
+    assert result.exception is None, result.exception
+    assert not set(COMMANDING) & set(result.stdout + result.stderr)
+    output = json.loads(result.stdout)
+    output = output["record"][0] if isinstance(output["record"], list) else output["record"]
+    assert output["source"] == record
 
 
 DRAWING = ("measure", "slide", "rock", "jump", "uplift", "respond", "stack", "criteria", "spectrum")
@@ -84,17 +84,17 @@ DRAWING = ("measure", "slide", "rock", "jump", "uplift", "respond", "stack", "cr
 @pytest.mark.parametrize("command", all_but_slow(DRAWING, {"slide", "rock", "respond", "criteria"}))
 def test_figure_text_is_not_mathematics(command, record, tmp_path):
     """A dollar begins no formula: the figure is drawn, and its title is the text."""
-    done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--plot", "out.svg", "--title", NASTY, "--quiet"])
-    assert done.exception is None, done.exception
+    result = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--plot", "out.svg", "--title", NASTY, "--quiet"])
+    assert result.exception is None, result.exception
     assert (tmp_path / "out.svg").stat().st_size > 1000
-    assert not set(COMMANDING) & set(done.stderr) and "Glyph" not in done.stderr
+    assert not set(COMMANDING) & set(result.stderr) and "Glyph" not in result.stderr
 
 
 @pytest.mark.slow
 def test_report_escapes_text(record, tmp_path):
     """No tag of a header is a tag of the page."""
-    done = CliRunner().invoke(main, ["report", record, "--body", "stone.toml", "-o", "out.html", "--quiet"])
-    assert done.exception is None, done.exception
+    result = CliRunner().invoke(main, ["report", record, "--body", "stone.toml", "-o", "out.html", "--quiet"])
+    assert result.exception is None, result.exception
     page = (tmp_path / "out.html").read_text(encoding="utf-8")
     assert not set(COMMANDING) & set(page)
     assert "<script>alert(1)" not in page and "&lt;script&gt;alert(1)" in page

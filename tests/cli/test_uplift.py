@@ -37,9 +37,9 @@ def record(tmp_path):
 
 def test_uplift_document_equals_library(run, record):
     """The document of a record is the library's answer, bit for bit, with the keys everyone relies on."""
-    found = json.loads(run(record, "--component", "EW", *BODY, "--json").stdout)
-    assert found["schema"] == "seisblock/uplift/1"
-    result = found["results"][0]
+    output = json.loads(run(record, "--component", "EW", *BODY, "--json").stdout)
+    assert output["schema"] == "seisblock/uplift/1"
+    result = output["results"][0]
     body = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=6.0, beta=0.707)
     expected = solve_uplift(body, Motion(shaking(3.0, 0.01).acceleration, 0.01)).outcome
     assert result["component"] == "EW"
@@ -48,8 +48,8 @@ def test_uplift_document_equals_library(run, record):
         assert result[key] == getattr(expected, key), key
     assert sorted(result["share_on_corners"]) == ["0", "1", "2", "3", "4"]
     assert [corner["corner"] for corner in result["corners"]] == [1, 2, 3, 4]
-    assert found["parameters"]["block"]["mass_kg"] == 1000.0
-    assert found["citations"] == ["Okumura1987"]
+    assert output["parameters"]["block"]["mass_kg"] == 1000.0
+    assert output["citations"] == ["Okumura1987"]
 
 
 def test_uplift_of_square_block_follows_rotation(run, record):
@@ -64,20 +64,20 @@ def test_uplift_of_square_block_follows_rotation(run, record):
 def test_uplift_stiffness_equals_frequency_input(run, record):
     """Springs given in N/m move the block as the frequencies that they make."""
     k = 800.0 * (2 * math.pi * 6.0) ** 2 / 4
-    given = ("--mass", 800, "--stiffness", f"{k * 0.707**2},{k * 0.707**2},{k}")
-    one = json.loads(run(record, "--component", "EW", *BODY, "--json").stdout)["results"][0]
-    two = json.loads(run(record, "--component", "EW", *BODY[:4], *given, "--json").stdout)["results"][0]
-    assert two["max_uplift_m"] == pytest.approx(one["max_uplift_m"], rel=1e-9)
-    assert two["max_contact_force_n"] == pytest.approx(0.8 * one["max_contact_force_n"], rel=1e-9)
+    values = ("--mass", 800, "--stiffness", f"{k * 0.707**2},{k * 0.707**2},{k}")
+    first = json.loads(run(record, "--component", "EW", *BODY, "--json").stdout)["results"][0]
+    two = json.loads(run(record, "--component", "EW", *BODY[:4], *values, "--json").stdout)["results"][0]
+    assert two["max_uplift_m"] == pytest.approx(first["max_uplift_m"], rel=1e-9)
+    assert two["max_contact_force_n"] == pytest.approx(0.8 * first["max_contact_force_n"], rel=1e-9)
 
 
 def test_uplift_harmonic_document_has_curve_and_minimum(run):
     """Without frequencies the curve is the paper's grid; with a list it holds exactly those; the minimum is exact."""
-    alone = json.loads(run("--harmonic", "--beta", "0.7746", "--json").stdout)["results"][0]
-    assert len(alone["curve"]) == 600
-    assert set(alone["curve"][0]) == {"frequency_ratio", "acceleration_ratio"}
-    assert alone["minimum"]["acceleration_ratio"] == pytest.approx(0.0872857, abs=1e-6)
-    assert [m["mode"] for m in alone["minima"]] == ["first rocking in x-z", "second rocking in x-z"]
+    single = json.loads(run("--harmonic", "--beta", "0.7746", "--json").stdout)["results"][0]
+    assert len(single["curve"]) == 600
+    assert set(single["curve"][0]) == {"frequency_ratio", "acceleration_ratio"}
+    assert single["minimum"]["acceleration_ratio"] == pytest.approx(0.0872857, abs=1e-6)
+    assert [m["mode"] for m in single["minima"]] == ["first rocking in x-z", "second rocking in x-z"]
     listed = json.loads(run("--harmonic", "--beta", math.sqrt(0.6), "--frequency-ratio", "2.78225,1", "--json").stdout)["results"][0]
     assert [point["frequency_ratio"] for point in listed["curve"]] == [2.78225, 1.0]
     assert listed["curve"][0]["acceleration_ratio"] == pytest.approx(0.676683, abs=5e-7)
@@ -104,31 +104,31 @@ def test_uplift_harmonic_accepts_sizes_and_springs(run):
 
 def test_uplift_tables_fit_80_columns(run, record):
     """Tables fit 80 columns and say which corner lifted first, and which modes there are."""
-    told = run(record, "--component", "EW", *BODY)
-    assert told.exit_code == 0
-    assert "first uplift at corner" in " ".join(told.stdout.split())
+    result = run(record, "--component", "EW", *BODY)
+    assert result.exit_code == 0
+    assert "first uplift at corner" in " ".join(result.stdout.split())
     harmonic = run("--harmonic", "--phi", 45, "--rho", 45)
     assert "second rocking in x-z" in harmonic.stdout
-    assert max(map(len, (told.stdout + harmonic.stdout).splitlines())) <= 80
+    assert max(map(len, (result.stdout + harmonic.stdout).splitlines())) <= 80
 
 
 def test_uplift_beyond_model_has_null_and_flag(run):
     """A block that leans beyond what the model can follow has a first uplift and no height; JSON keeps both, and a flag (N16)."""
     words = ("synthetic_jma.csv", "--width", 0.6, "--height", 1.8, "--frequency-vertical", 10, "--component", "NS")
-    shown = " ".join(run(*words).stdout.split())
-    assert "first uplift at corner 1, at 20.963 s; amount of uplift not available" in shown
-    assert "mm." not in shown.partition("NS: corner")[2].partition("+x =")[0]
-    assert "maximum uplift" not in shown
-    (found,) = json.loads(run(*words, "--json").stdout)["results"]
-    assert found["within_model"] is False
-    assert found["lean_ratio"] > 1.0
-    assert found["max_uplift_m"] > 0.1
+    output = " ".join(run(*words).stdout.split())
+    assert "first uplift at corner 1, at 20.963 s; amount of uplift not available" in output
+    assert "mm." not in output.partition("NS: corner")[2].partition("+x =")[0]
+    assert "maximum uplift" not in output
+    (result,) = json.loads(run(*words, "--json").stdout)["results"]
+    assert result["within_model"] is False
+    assert result["lean_ratio"] > 1.0
+    assert result["max_uplift_m"] > 0.1
 
 
 def test_uplift_of_weak_record_states_factor(run, record):
-    """When nothing lifts the answer says how many times stronger the motion would have to be."""
-    told = run(record, "--component", "EW", *BODY, "--scale", 0.05)
-    assert "no uplift; scale factor to uplift" in " ".join(told.stdout.split())
+    """Without uplift the answer states the scale factor to uplift."""
+    result = run(record, "--component", "EW", *BODY, "--scale", 0.05)
+    assert "no uplift; scale factor to uplift" in " ".join(result.stdout.split())
 
 
 @pytest.mark.parametrize(
@@ -163,7 +163,10 @@ def test_uplift_writes_harmonic_curves_as_csv(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message", "code"),
     [
-        ((), "--width required", 3),
+        (("--height", 2), "--width required", 3),
+        (("--body", "gravestone"), 'kind must be "springs"', 3),
+        (("--body", "nobody"), "bundled: machine", 3),
+        (("--harmonic", "--body", "machine"), "no effect with --harmonic", 2),
         (("--width", 1), "--height required", 3),
         (("--width", 1, "--height", 2), "spring stiffness required", 3),
         (("--width", 0, "--height", 2, "--frequency-vertical", 5), "width of the block must be positive", 3),
@@ -189,11 +192,25 @@ def test_uplift_writes_harmonic_curves_as_csv(run, tmp_path):
     ],
 )
 def test_uplift_reports_bad_input_in_one_sentence(run, words, message, code):
-    """What cannot be is refused in one sentence, without a traceback."""
+    """Bad input gives one sentence, no traceback."""
     refused = run(*words)
     assert refused.exit_code == code, refused.output
     assert message in " ".join(refused.stderr.split())
     assert "Traceback" not in refused.output
+
+
+def test_uplift_without_sizes_uses_bundled_machine(run, record, tmp_path):
+    """A record alone is answered with the bundled body, equal to its sizes; options and a file of the user replace its values."""
+    sizes = ("--width", 1.6, "--depth", 1.4, "--height", 1.2, "--mass", 1500, "--frequency-vertical", 15, "--beta", 0.7)
+    plain, names, typed = (run(record, *words, "--json") for words in ((), ("--body", "machine"), sizes))
+    assert "bundled machine" in plain.stderr
+    assert plain.stdout == names.stdout == typed.stdout
+    assert run(record, "--damping", 0.1, "--json").stdout == run(record, *sizes, "--damping", 0.1, "--json").stdout
+    (tmp_path / "台.toml").write_text(
+        'kind = "springs"\nwidth = "160cm"\ndepth = 1.4\nheight = 1.2\nmass = 1500\nstiffness = [1e6, 1e6, 2e6]\n', encoding="utf-8"
+    )
+    output = json.loads(run(record, "--body", "台.toml", "--json").stdout)["parameters"]
+    assert output == json.loads(run(record, *sizes[:8], "--stiffness", "1e6,1e6,2e6", "--json").stdout)["parameters"]
 
 
 def test_uplift_solves_record_without_vertical(run, tmp_path):
@@ -201,7 +218,7 @@ def test_uplift_solves_record_without_vertical(run, tmp_path):
     motion = shaking(2.0, 0.01)
     rows = np.column_stack([motion.time, motion.transverse, motion.horizontal])
     np.savetxt(tmp_path / "flat.csv", rows, delimiter=",", header="time,NS (m/s2),EW (m/s2)", comments="", fmt="%.17g")
-    told = run("flat.csv", *BODY, "--json")
-    assert told.exit_code == 0
-    assert "no vertical component in the record: vertical motion set to zero" in told.stderr
-    assert any("no vertical component" in message for message in json.loads(told.stdout)["warnings"])
+    result = run("flat.csv", *BODY, "--json")
+    assert result.exit_code == 0
+    assert "no vertical component in the record: vertical motion set to zero" in result.stderr
+    assert any("no vertical component" in message for message in json.loads(result.stdout)["warnings"])

@@ -33,9 +33,9 @@ def failing_case(status="holds", note="", today=None):
 @pytest.fixture(autouse=True)
 def some_papers(monkeypatch):
     """The evidence of three papers, which takes a moment; all of it is under test in ``tests/papers``."""
-    few = [*cases("sugimoto"), *cases("tsutsui"), *cases("furukawa_field")[:2]]
-    monkeypatch.setattr("seisblock.validation.cases", lambda paper=None: few)
-    return few
+    subset = [*cases("sugimoto"), *cases("tsutsui"), *cases("furukawa_field")[:2]]
+    monkeypatch.setattr("seisblock.validation.cases", lambda paper=None: subset)
+    return subset
 
 
 def test_validate_document_lists_differing_cases_first(some_papers):
@@ -61,16 +61,16 @@ def test_validate_document_lists_differing_cases_first(some_papers):
 
 def test_validate_lists_differing_and_counts_holding():
     """--details lists what differs with its reason, and four counts; --all lists the rest, labelled with what each is worth."""
-    short, whole = run("--paper", "Sugimoto2017", "--details").stdout, run("--paper", "Sugimoto2017", "--all").stdout
+    short, full = run("--paper", "Sugimoto2017", "--details").stdout, run("--paper", "Sugimoto2017", "--all").stdout
     count = len(cases("sugimoto"))
-    assert short.startswith(f"{count} cases: ") and whole.startswith(f"{count} cases: ")
+    assert short.startswith(f"{count} cases: ") and full.startswith(f"{count} cases: ")
     japanese = run("--paper", "Sugimoto2017", "--lang", "ja", "--details").stdout
     assert "。--all で" in japanese  # no blank between two Japanese sentences
     assert "Cases that agree" not in short and "--all also lists the cases that agree" in " ".join(short.split())
     assert "case 9: impact" not in " ".join(short.split())
-    assert len(short.splitlines()) < 0.4 * len(whole.splitlines())
-    assert "Cases that agree" in whole and "jump plus" in whole and "[print check]" in whole.replace("\n", " ")
-    for text in (short, whole):
+    assert len(short.splitlines()) < 0.4 * len(full.splitlines())
+    assert "Cases that agree" in full and "jump plus" in full and "[print check]" in full.replace("\n", " ")
+    for text in (short, full):
         cells = [
             line.split()[-4:] for line in text.partition("Evidence by kind")[2].splitlines() if line.strip().endswith(tuple("0123456789"))
         ]
@@ -164,7 +164,7 @@ def test_gallery_is_self_contained(some_papers, tmp_path):
     assert answer.exit_code == 0 and links.fetched == [] and "@import" not in text and "url(" not in text
     assert text.count("<svg") > len(some_papers)
     assert "input rebuilt" in text and "consistency of printed values" in text
-    assert "Largest difference" in text and "slide-rocking in the table lasts 1.5 to 1.7 times" in text
+    assert "Largest difference" in text and "with the right one the foot needs more friction than it has, and slips" in text
 
 
 def test_gallery_has_anchors_and_captions(some_papers, tmp_path):
@@ -180,8 +180,8 @@ def test_gallery_has_anchors_and_captions(some_papers, tmp_path):
     assert len(places) == len(set(places)) and set(re.findall(r'href="#([^"]+)"', text)) == set(places)
     assert len(places) == 1 + len(papers) + len({(case.paper, case.place) for case in some_papers})
     for paper in papers:
-        (told,) = re.findall(rf'<a href="#{paper}">(.*?)</a>', text)
-        assert "".join(told.split("<wbr>")) == paper and max(map(len, told.split("<wbr>"))) <= 11
+        (message,) = re.findall(rf'<a href="#{paper}">(.*?)</a>', text)
+        assert "".join(message.split("<wbr>")) == paper and max(map(len, message.split("<wbr>"))) <= 11
     figures = re.findall(r"<figure>.*?</figure>", text, re.DOTALL)
     assert figures and all(re.search(r"<figcaption>[^<]{20,}</figcaption>", figure) for figure in figures)
 
@@ -201,6 +201,6 @@ def test_validate_runs_without_development_packages():
     """It runs where pytest, hypothesis, pandas and the packages of the comparisons are missing."""
     hidden = f"import sys; sys.modules.update(dict.fromkeys({DEVELOPMENT!r}))"
     script = f"{hidden}; from seisblock.cli import main; main(['validate', '--quick', '--json'])"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)["counts"]["fails"] == 0
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert result.returncode == 0, result.stderr
+    assert json.loads(result.stdout)["counts"]["fails"] == 0

@@ -24,8 +24,8 @@ def test_criterion_warns_outside_fitted_range():
     """Each of PGA, frequency and H/B outside its range is one sentence; the ends are inside."""
     assert fit_range_warnings(1.0, 0.5, [1.25, 6.5]) == ()
     assert fit_range_warnings(13.0, 3.0) == ()
-    said = fit_range_warnings(14.0, 3.2, [1.0, 2.0, 7.0])
-    assert len(said) == 3
-    assert "1400 gal" in said[0]
-    assert "3.2 Hz" in said[1]
-    assert "2 of 3 stones" in said[2]
+    warnings = fit_range_warnings(14.0, 3.2, [1.0, 2.0, 7.0])
+    assert len(warnings) == 3
+    assert "1400 gal" in warnings[0]
+    assert "3.2 Hz" in warnings[1]
+    assert "2 of 3 stones" in warnings[2]

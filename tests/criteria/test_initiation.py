@@ -1,4 +1,4 @@
-"""Which motion begins from rest: Shenton's (1996) closed forms against the five-mode solver, and their limits."""
+"""Mode that begins from rest: closed forms of Shenton (1996) against the five-mode solver, and their limits."""
 
 import math
 
@@ -20,9 +20,9 @@ from tests.models.respond.cases import constant_push
 def test_initiation_mode_equals_solver(width, height, mu, ratio):
     """Rest, slide, rock and slide-rock under a jump of the ground acceleration, away from the limits themselves."""
     block = Block(width, height)
-    needed = friction_to_rock(block, ratio) or mu + 1.0
+    required = friction_to_rock(block, ratio) or mu + 1.0
     slender = width / height
-    if min(abs(ratio - mu), abs(ratio - slender), abs(mu - slender), abs(mu - needed)) > 1e-6 and mu < 1.3:
+    if min(abs(ratio - mu), abs(ratio - slender), abs(mu - slender), abs(mu - required)) > 1e-6 and mu < 1.3:
         outcome = solve_respond(block, constant_push(ratio * G), mu=mu, settle_s=0.0, sensitivity=False).outcome
         assert outcome.events[0]["mode"] == first_mode(block, mu, ratio)
 

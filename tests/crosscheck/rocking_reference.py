@@ -29,8 +29,8 @@ def events(a, av, dt, arms, h, gyration_squared, restitution, until=math.pi / 2,
     """
     arm = {1: arms[0], -1: arms[1]}
     inertia = {corner: gyration_squared + b * b + h * h for corner, b in arm.items()}
-    kept = {1: restitution[0], -1: restitution[1]}
-    found = []
+    remaining = {1: restitution[0], -1: restitution[1]}
+    result = []
     k, t, side, y = 0, 0.0, 0, [0.0, 0.0]
 
     def ground(time):
@@ -59,7 +59,7 @@ def events(a, av, dt, arms, h, gyration_squared, restitution, until=math.pi / 2,
                 continue
             t, side = start
             y = [0.0, 0.0]
-            found.append((t, "rocking starts"))
+            result.append((t, "rocking starts"))
 
         def impact(_, state, corner=side):
             return corner * state[0]
@@ -86,17 +86,17 @@ def events(a, av, dt, arms, h, gyration_squared, restitution, until=math.pi / 2,
         )
         t, y = float(answer.t[-1]), [float(value) for value in answer.y[:, -1]]
         if answer.t_events[1].size:
-            found.append((t, "overturns"))
-            return found
+            result.append((t, "overturns"))
+            return result
         if answer.t_events[0].size:
             side = -side
-            y = [0.0, kept[side] * y[1]]
+            y = [0.0, remaining[side] * y[1]]
             back = -side * acceleration(t, 0.0, side)
             if 2 * abs(y[1]) <= hop * back:
                 side = 0
-                found.append((t, "comes to rest"))
+                result.append((t, "comes to rest"))
             else:
-                found.append((t, "impact"))
+                result.append((t, "impact"))
         else:
             k, t = k + 1, end
-    return found
+    return result

@@ -43,7 +43,7 @@ def study():
 
 
 def test_export_omits_limit_without_curve():
-    """Where rocking begins is sharp, one intensity for every record: no curve, and no reason to refuse that of falling."""
+    """A limit reached at one intensity by every record has no curve and does not prevent the export of the others."""
     study = run_fragility(
         synthetic_suite(12, seconds=15.0),
         {"shelf": Block(0.3, 1.5)},
@@ -66,13 +66,13 @@ def files(study, tmp_path_factory):
     text = io.StringIO()
     header, rows = pelicun_rows(study)
     csv.writer(text).writerows([header, *rows])
-    written = {
+    curves = {
         "fragility.csv": text.getvalue(),
         "fragility.json": pelicun_metadata(study),
         "continuous.xml": nrml(study),
         "discrete.xml": nrml(study, shape="discrete"),
     }
-    for name, content in written.items():
+    for name, content in curves.items():
         (folder / name).write_text(content, encoding="utf-8")
     return folder
 
@@ -81,9 +81,9 @@ def peer(package, script, *words):
     """Return what a script prints in an interpreter that has a package."""
     for python in [*os.environ.get("SEISBLOCK_PEERS", "").split(os.pathsep), sys.executable]:
         if python and subprocess.run([python, "-c", f"import {package}"], capture_output=True, check=False).returncode == 0:
-            done = subprocess.run([python, "-c", script, *map(str, words)], capture_output=True, text=True, check=False)
-            assert done.returncode == 0, done.stderr
-            return json.loads(done.stdout.splitlines()[-1])
+            result = subprocess.run([python, "-c", script, *map(str, words)], capture_output=True, text=True, check=False)
+            assert result.returncode == 0, result.stderr
+            return json.loads(result.stdout.splitlines()[-1])
     pytest.skip(f"no interpreter of SEISBLOCK_PEERS has {package}")
 
 
@@ -110,13 +110,13 @@ def test_exported_columns_equal_fema_p58(study):
     """The header is that of FEMA P-58 in DLML, as far as there are limit states."""
     from dlml import api
 
-    (name,) = [each for each in api.list_datasets() if "P-58 2nd" in each]
-    own = {f"{a}-{b}" if b else a for a, b in api.get_fragility(name).columns}
-    assert set(pelicun_rows(study)[0]) - {"ID"} <= own
-    told = json.loads(pelicun_metadata(study))
+    (name,) = [item for item in api.list_datasets() if "P-58 2nd" in item]
+    curves = {f"{a}-{b}" if b else a for a, b in api.get_fragility(name).columns}
+    assert set(pelicun_rows(study)[0]) - {"ID"} <= curves
+    answer = json.loads(pelicun_metadata(study))
     shelf = api.get_metadata(name, "fragility")["E.20.22.102a"]
-    assert set(told["shelf_tall"]) == set(shelf) and set(told["body_2"]["LimitStates"]) == {"LS1", "LS2"}
-    assert told["body_2"]["Description"] == "棚"
+    assert set(answer["shelf_tall"]) == set(shelf) and set(answer["body_2"]["LimitStates"]) == {"LS1", "LS2"}
+    assert answer["body_2"]["Description"] == "棚"
 
 
 PELICUN = """
@@ -176,18 +176,18 @@ print(json.dumps(found))
 def test_openquake_functions_equal_curves(shape, study, files):
     """Its own functions, evaluated at levels in g, are our lognormal, or our shares made to rise."""
     levels = [2.0, 4.0, 6.0, 9.0]
-    found = peer(
+    result = peer(
         "openquake.risklib.read_nrml", OPENQUAKE, files / f"{shape}.xml", json.dumps([level / STANDARD_GRAVITY for level in levels])
     )
     for name, body in (("shelf_tall", "shelf, tall"), ("body_2", "棚")):
-        assert found[name]["imt"] == "PGA"
+        assert result[name]["imt"] == "PGA"
         for state, limit in (("lean_0_5", "lean=0.5"), ("overturn", "overturn")):
             curve = of(study, body, limit)
             shares = np.interp(
-                levels, [each.im for each in curve.levels], pool_adjacent_violators([each.exceeding / each.runs for each in curve.levels])
+                levels, [item.im for item in curve.levels], pool_adjacent_violators([item.exceeding / item.runs for item in curve.levels])
             )
             expected = curve.curve.probability(levels) if shape == "continuous" else shares
-            assert found[name][state] == pytest.approx(expected, abs=1e-9)
+            assert result[name][state] == pytest.approx(expected, abs=1e-9)
 
 
 @pytest.mark.parametrize("shape", ["continuous", "discrete"])
@@ -209,8 +209,8 @@ def test_exported_model_obeys_openquake_rules(shape, study, files):
             assert 0.0 < float(imls.get("minIML")) < float(imls.get("maxIML"))
             assert all(float(curve.get(key)) > 0.0 for curve in curves for key in ("mean", "stddev"))
         else:
-            levels = [float(each) for each in imls.text.split()]
-            shares = [[float(each) for each in curve.text.split()] for curve in curves]
+            levels = [float(item) for item in imls.text.split()]
+            shares = [[float(item) for item in curve.text.split()] for curve in curves]
             assert levels == sorted(set(levels))
             assert all(row == sorted(row) and len(row) == len(levels) and row[0] >= 0.0 and row[-1] <= 1.0 for row in shares)
             assert all(beyond <= before for before, beyond in zip(*shares, strict=True))

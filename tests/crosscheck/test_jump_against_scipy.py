@@ -55,8 +55,11 @@ def inertias(block):
     return m, y, inertia
 
 
-def chain(block, motion, contact, ratio, drop):
-    """Return onset, impact, landing, end and displacements of the first chain, in the frame of its direction."""
+def chain(block, motion, contact, ratio, drop, printed=False):
+    """Return onset, impact, landing, end and displacements of the first chain, in the frame of its direction.
+
+    With `printed`, the foot that sticks feels the opposite shaking, and tilt and slip gain half of their accelerations after the landing.
+    """
     m, h, inertia = inertias(block)
     half = block.width / 2
     threshold = G * half / h
@@ -107,14 +110,16 @@ def chain(block, motion, contact, ratio, drop):
             a[3] = [0.0, 0.0, 1.0, slip * contact.kinetic]
         return np.linalg.solve(a, b)
 
+    opposite = -1.0 if printed else 1.0
     shake = np.interp(landing, ts, z)
-    _, _, push, normal = contact_solve(state[0], state[1], shake, None)
+    _, _, push, normal = contact_solve(state[0], state[1], opposite * shake, None)
     slides = abs(push) > contact.mu * normal
     slip = -np.sign(push) if slides else None
 
     def landed(_, y, shake):
-        turn, foot, _, _ = contact_solve(y[0], y[1], shake, slip)
-        return [y[1], turn, y[3], foot]
+        turn, foot, _, _ = contact_solve(y[0], y[1], (1.0 if slides else opposite) * shake, slip)
+        share = 0.5 if printed else 1.0
+        return [y[1], share * turn, y[3], share * foot]
 
     end, final = march(mirrored, landing, [state[0], state[1], 0.0, 0.0], landed, lambda y: -side * y[0])
     stops = slides and np.sign(final[3]) != slip
@@ -135,17 +140,46 @@ CASES = [
 ]
 
 
+PRINTED = [
+    pytest.param(half_sine(6.5, 0.6, 3.0), SHORT, Contact(0.18, 0.17, 0.95, 0.85), 0.3, True, id="slips"),
+    pytest.param(half_sine(-6.5, 0.6, 3.0), SHORT, Contact(0.9, 0.8, 0.95, 0.70), 0.3, False, id="sticks"),
+]
+
+
+@pytest.mark.parametrize(("motion", "block", "contact", "drop", "slips"), PRINTED)
+def test_printed_landing_equals_dop853(motion, block, contact, drop, slips):
+    """The scheme of the tables agrees with DOP853 on its equations, with a foot that slips and one that sticks."""
+    result = solve_jump(block, motion, contact=contact, drop=drop, spin="ratio=0.19", gravity=G, landing="printed").outcome.chains[0]
+    _, _, landing, end, jumped, moved, slides, stops = chain(block, motion, contact, 0.19, drop, printed=True)
+    assert not stops
+    assert (result.slid, slides) == (slips, slips)
+    np.testing.assert_allclose(
+        [result.landing_s, result.end_s, result.jump_displacement_m, result.rock_slide_displacement_m],
+        [landing, end, jumped, moved],
+        atol=2e-9,
+    )
+    ordinary = solve_jump(block, motion, contact=contact, drop=drop, spin="ratio=0.19", gravity=G).outcome.chains[0]
+    assert result.rock_slide_duration_s > 1.2 * ordinary.rock_slide_duration_s
+
+
 @pytest.mark.parametrize(("motion", "block", "spin", "drop"), CASES)
 def test_jump_under_pulse_equals_dop853(motion, block, spin, drop):
     """Onset, impact, landing, end and displacements agree with DOP853 at 1e-12."""
     contact = Contact(0.18, 0.17, 0.95, 0.85)
-    found = solve_jump(block, motion, contact=contact, drop=drop, spin=f"ratio={spin}", gravity=G).outcome.chains[0]
+    result = solve_jump(block, motion, contact=contact, drop=drop, spin=f"ratio={spin}", gravity=G).outcome.chains[0]
     onset, impact, landing, end, jumped, moved, slides, stops = chain(block, motion, contact, spin, drop)
     assert not stops, "the reference does not model a second slip; choose another case"
-    assert found.slid == slides
-    assert found.landing_corner == ("leading" if spin > 0 else "trailing")
+    assert result.slid == slides
+    assert result.landing_corner == ("leading" if spin > 0 else "trailing")
     np.testing.assert_allclose(
-        [found.rocking_start_s, found.impact_s, found.landing_s, found.end_s, found.jump_displacement_m, found.rock_slide_displacement_m],
+        [
+            result.rocking_start_s,
+            result.impact_s,
+            result.landing_s,
+            result.end_s,
+            result.jump_displacement_m,
+            result.rock_slide_displacement_m,
+        ],
         [onset, impact, landing, end, jumped, moved],
         atol=2e-9,
     )
@@ -156,11 +190,13 @@ def test_jump_with_sticking_foot_equals_dop853(friction):
     """With friction enough the foot sticks, and the chain is that of eq. (12)."""
     contact = Contact(*friction, 0.95, 0.70)
     motion = half_sine(6.5, 0.6, 3.0)
-    found = solve_jump(SHORT, motion, contact=contact, drop=0.3, spin="ratio=0.22", gravity=G).outcome.chains[0]
+    result = solve_jump(SHORT, motion, contact=contact, drop=0.3, spin="ratio=0.22", gravity=G).outcome.chains[0]
     *times, slides, stops = chain(SHORT, motion, contact, 0.22, 0.3)
     assert not stops
-    assert found.slid == slides
-    np.testing.assert_allclose([found.landing_s, found.end_s, found.rock_slide_displacement_m], [times[2], times[3], times[5]], atol=2e-9)
+    assert result.slid == slides
+    np.testing.assert_allclose(
+        [result.landing_s, result.end_s, result.rock_slide_displacement_m], [times[2], times[3], times[5]], atol=2e-9
+    )
 
 
 @pytest.mark.parametrize("index", range(3))
@@ -169,11 +205,18 @@ def test_jump_under_real_records_equals_dop853(index):
     motion = real_motions(6.0)[index]
     contact = Contact(0.18, 0.17, 0.95, 0.85)
     slender = TwoLayerBlock(1.0, 1.0, 1.06, 1.84, 1303.7, 160.0)
-    found = solve_jump(slender, motion, contact=contact, drop=0.1, spin="ratio=0.2", gravity=G).outcome.chains[0]
+    result = solve_jump(slender, motion, contact=contact, drop=0.1, spin="ratio=0.2", gravity=G).outcome.chains[0]
     onset, impact, landing, end, jumped, moved, _, stops = chain(slender, motion, contact, 0.2, 0.1)
     assert not stops
     np.testing.assert_allclose(
-        [found.rocking_start_s, found.impact_s, found.landing_s, found.end_s, found.jump_displacement_m, found.rock_slide_displacement_m],
+        [
+            result.rocking_start_s,
+            result.impact_s,
+            result.landing_s,
+            result.end_s,
+            result.jump_displacement_m,
+            result.rock_slide_displacement_m,
+        ],
         [onset, impact, landing, end, jumped, moved],
         atol=1e-8,
     )

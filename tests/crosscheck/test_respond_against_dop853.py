@@ -42,9 +42,9 @@ def reference(seed):
 
 def agrees(case, ours, theirs):
     """Assert that two answers are one: modes, times, states at every sample and at the end, counts and energies."""
-    mine = program_events(ours)
-    assert [event[1:] for event in mine] == [event[1:] for event in theirs.events]
-    np.testing.assert_allclose([event[0] for event in mine], [event[0] for event in theirs.events], rtol=0, atol=IN_TIME)
+    computed = program_events(ours)
+    assert [event[1:] for event in computed] == [event[1:] for event in theirs.events]
+    np.testing.assert_allclose([event[0] for event in computed], [event[0] for event in theirs.events], rtol=0, atol=IN_TIME)
     np.testing.assert_allclose(last_state(ours), [theirs.state[i] for i in (X, Y, THETA, VX, OMEGA)], rtol=IN_STATE, atol=IN_STATE)
     for name, index in (("displacement", X), ("rotation", THETA)):
         values = values_at_samples(ours, name, case, len(theirs.samples))

@@ -24,10 +24,10 @@ def test_respond_outcome_and_peaks_equal_mujoco(seed):
     case = replace(plain(some_case(seed), rise=0.3), initial=None)
     ours = program(case).outcome
     path = respond(case)
-    far, lean = np.abs(path).max(axis=0)
+    distant, lean = np.abs(path).max(axis=0)
     falls = abs(path[-1, 1]) > np.pi / 2
     assert ours.overturned == falls
-    assert ours.max_displacement_m == pytest.approx(far, rel=0.03)
+    assert ours.max_displacement_m == pytest.approx(distant, rel=0.03)
     if falls:
         assert ours.overturned_towards == ("+x" if path[-1, 1] > 0 else "-x")
     elif ours.max_rotation_rad > 0:

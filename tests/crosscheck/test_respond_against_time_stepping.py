@@ -29,11 +29,11 @@ def test_respond_outcome_and_displacement_equal_time_stepping(seed):
     """The same verdict and side, at the same time; the same final and largest displacement, the same largest lean."""
     case = plain(some_case(seed))
     ours = program(case)
-    time, x, _, theta, *_, far, lean = end_state(case, STEP)
+    time, x, _, theta, *_, distant, lean = end_state(case, STEP)
     outcome = ours.outcome
     assert outcome.overturned == (lean > math.pi / 2)
-    assert outcome.max_displacement_m == pytest.approx(far, rel=CLOSE)
-    assert last_state(ours)[0] == pytest.approx(x, abs=CLOSE * far)
+    assert outcome.max_displacement_m == pytest.approx(distant, rel=CLOSE)
+    assert last_state(ours)[0] == pytest.approx(x, abs=CLOSE * distant)
     if outcome.overturned:
         assert outcome.overturning_time_s == pytest.approx(time, abs=2e-3)
         assert np.sign(last_state(ours)[2]) == np.sign(theta)

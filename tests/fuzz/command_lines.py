@@ -43,6 +43,7 @@ FITTING: dict[str, Sequence[str]] = {
     "component": ("NS", "EW", "UD", "all", "37", "NS,EW", "400", "-20"),
     "scale": ("1", "3", "-1", "0"),
     "target_pga": ("700", "100"),
+    "target_jma": ("6+", "5弱", "4.2", "9", "x"),
     "window": ("0.2:1", ":1", "0.5:", "0.3:0.31", "5:9"),
     "floor": ("T=0.6", "T=0.3,zeta=0.1,height=1", "T=0.001", "T=0", "height=0.5", "T=5,zeta=1e-9"),
     "highpass": ("0.5", "5", "49", "51"),

@@ -1,4 +1,4 @@
-"""How long the fuzz is, and where its dice begin."""
+"""Duration and seed of the fuzzing."""
 
 import pytest
 

@@ -12,9 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import obspy
+import openpyxl
 
 from seisblock.records import Record
-from tests.readers import layouts
+from tests.readers import layouts, world
 from tests.readers.files import JMA_HEADER, KNET_CSV, knet, tar
 
 RNG = np.random.default_rng(11)
@@ -49,14 +50,14 @@ class Whole:
     options: dict[str, object] = field(default_factory=dict)
 
 
-_JUDGED = ("Sam", "Dur", "Max")
+_VALUES = ("Sam", "Dur", "Max")
 """How the lines of a K-NET header begin that say how many samples follow, and how large."""
 
 
 def judge_knet(data: bytes, record: Record) -> str:
     """Compare count and maximum with the header's."""
     text = data.decode("latin-1")
-    rate, duration, maximum = (_number(line[18:].replace("Hz", "")) for line in text.splitlines()[10:15] if line[:3] in _JUDGED)
+    rate, duration, maximum = (_number(line[18:].replace("Hz", "")) for line in text.splitlines()[10:15] if line[:3] in _VALUES)
     if duration is None or rate is None or maximum is None:
         return "a header that is no number was believed"
     if round(duration * rate) != record.samples:
@@ -69,8 +70,8 @@ def judge_knet(data: bytes, record: Record) -> str:
 def judge_knet_csv(data: bytes, record: Record) -> str:
     """Compare count and interval with the header's."""
     lines = [line.lstrip("#").strip() for line in data.decode("latin-1").splitlines()]
-    told = {name: _number(lines[lines.index(name) + 1]) for name in ("SamplingFrequency(Hz)", "DurationTime(s)") if name in lines[:-1]}
-    duration, rate = told.get("DurationTime(s)"), told.get("SamplingFrequency(Hz)")
+    mapping = {name: _number(lines[lines.index(name) + 1]) for name in ("SamplingFrequency(Hz)", "DurationTime(s)") if name in lines[:-1]}
+    duration, rate = mapping.get("DurationTime(s)"), mapping.get("SamplingFrequency(Hz)")
     if duration is None:
         return "a duration that is no number was believed"
     if round(duration / record.dt) != record.samples:
@@ -90,8 +91,8 @@ _PROMISES = rb"(?:NDATA:|NO. OF POINTS =|Number of points)\s*(\d+)|(\d+) (?: acc
 def judge_promised(data: bytes, record: Record) -> str:
     """Compare the count with the one that the header of the first component promises."""
     stated = re.search(_PROMISES, data, re.IGNORECASE)
-    found = record.samples if stated is None else int(stated[1] or stated[2])
-    return "" if found == record.samples else f"{record.samples} samples where the header states {found}"
+    result = record.samples if stated is None else int(stated[1] or stated[2])
+    return "" if result == record.samples else f"{record.samples} samples where the header states {result}"
 
 
 def judge_cwa(data: bytes, record: Record) -> str:
@@ -100,9 +101,9 @@ def judge_cwa(data: bytes, record: Record) -> str:
     if stated and abs(float(stated[1]) / record.dt - record.samples) > 2.0:
         return f"{record.samples} samples where the header states {float(stated[1])} s"
     for letter, code in zip("UNE", ("UD", "NS", "EW"), strict=True):
-        told = re.search(rf"AmplitudeMAX. {letter}:\s*([\d.]+)~\s*(-[\d.]+)\s".encode(), data)
+        text = re.search(rf"AmplitudeMAX. {letter}:\s*([\d.]+)~\s*(-[\d.]+)\s".encode(), data)
         row = 100 * record.component(code).acceleration
-        if told and max(abs(row.max() - float(told[1])), abs(row.min() - float(told[2]))) > 0.0012:
+        if text and max(abs(row.max() - float(text[1])), abs(row.min() - float(text[2]))) > 0.0012:
             return f"{code}: extremes are not the header's"
     return ""
 
@@ -137,10 +138,10 @@ def judge_moments(data: bytes, record: Record) -> str:
 
 def judge_sac(data: bytes, record: Record) -> str:
     """Compare the extremes with the header's: 32-bit words 1 and 2, in mm/s^2."""
-    found = 1e3 * np.array([record.components[0].acceleration.min(), record.components[0].acceleration.max()])
+    values = 1e3 * np.array([record.components[0].acceleration.min(), record.components[0].acceleration.max()])
     orders = [np.frombuffer(data[4:12], f"{order}f4").astype(float) for order in "<>"]
-    near = any(np.allclose(told, found, rtol=0.0, atol=2e-5 * np.abs(found).max()) for told in orders)
-    return "" if near or any(-12345.0 in told for told in orders) else f"extremes {found} are not the header's"
+    nearby = any(np.allclose(text, values, rtol=0.0, atol=2e-5 * np.abs(values).max()) for text in orders)
+    return "" if nearby or any(-12345.0 in text for text in orders) else f"extremes {values} are not the header's"
 
 
 def judge_slist(data: bytes, record: Record) -> str:
@@ -236,10 +237,10 @@ def _knet(row: int, **header: str) -> Writer:
     return lambda rows: knet([int(x * 1577) + 900 for x in rows[row]], duration="6", **header).encode()
 
 
-_one = _knet(0)
+_first = _knet(0)
 WRITERS: dict[str, Writer] = {
     "jma": _jma,
-    "knet": _one,
+    "knet": _first,
     "kiknet": _knet(1, direction="5", station="NGNH31"),
     "knet-csv": _knet_csv,
     "at2": _at2,
@@ -260,9 +261,9 @@ WRITERS: dict[str, Writer] = {
     "tspair": _obspy("TSPAIR"),
     "mseed": _obspy("MSEED", 3),
     "sac": _obspy("SAC"),
-    "tar": lambda rows: tar({"a.NS": _one(rows)}),
-    "tar.gz": lambda rows: tar({"a.NS": _one(rows)}, mode="w:gz"),
-    "zip": lambda rows: _zip("a/b.NS", _one(rows)),
+    "tar": lambda rows: tar({"a.NS": _first(rows)}),
+    "tar.gz": lambda rows: tar({"a.NS": _first(rows)}, mode="w:gz"),
+    "zip": lambda rows: _zip("a/b.NS", _first(rows)),
 }
 """What writes three components, gal, in each format that is read."""
 
@@ -290,6 +291,38 @@ JUDGES: dict[str, Callable[[bytes, Record], str]] = {
     "tar": lambda data, record: judge_knet(data[data.find(b"Origin Time") :], record),
 }
 OPTIONS: dict[str, dict[str, object]] = {"one column": {"dt": 0.01}, **dict.fromkeys(("slist", "tspair", "mseed", "sac"), MM)}
-FORMATS = {
-    kind: Whole(written(ROWS), JUDGES.get(kind, lambda data, record: ""), OPTIONS.get(kind, {})) for kind, written in WRITERS.items()
+
+
+def _phone(rows: Rows) -> bytes:
+    """Return the table of phyphox, evenly sampled, with gravity."""
+    head = '"Time (s)","Acceleration x (m/s^2)","Acceleration y (m/s^2)","Acceleration z (m/s^2)","Absolute acceleration (m/s^2)"'
+    lines = zip(T, *(row / 100.0 for row in rows), strict=True)
+    return (head + "\n" + "".join(f"{t:.9E},{x:.9E},{y:.9E},{z + 9.81:.9E},{9.81:.9E}\n" for t, x, y, z in lines)).encode()
+
+
+def _xlsx(rows: Rows) -> bytes:
+    """Return a workbook with a table."""
+    workbook = openpyxl.Workbook()
+    workbook.active.append(["time (s)", "NS (gal)", "EW (gal)", "UD (gal)"])
+    for line in zip(T.tolist(), *(row.tolist() for row in rows), strict=True):
+        workbook.active.append(line)
+    buffer = io.BytesIO()
+    workbook.save(buffer)
+    return buffer.getvalue()
+
+
+UNEVEN = np.cumsum(RNG.integers(3, 14, SAMPLES)) / 1000.0
+
+WRITERS |= {
+    "afad": lambda rows: world.afad(rows).encode(),
+    "unam": lambda rows: world.unam(rows).encode(),
+    "bhrc": lambda rows: world.bhrc(rows).encode(),
+    "renadic": lambda rows: world.renadic(rows).encode(),
+    "usc v1": lambda rows: world.usc_v1(rows[0], UNEVEN, form="7.3f", margin=" ").encode(),
+    "usc v2": lambda rows: world.usc_v2(rows[0]).encode(),
+    "phone": _phone,
+    "xlsx": _xlsx,
 }
+"""Formats of the open world."""
+
+FORMATS = {kind: Whole(output(ROWS), JUDGES.get(kind, lambda data, record: ""), OPTIONS.get(kind, {})) for kind, output in WRITERS.items()}

@@ -15,7 +15,7 @@ from tests.fuzz.command_lines import SAMPLES, STRANGE
 from tests.fuzz.formats import WRITERS
 from tests.fuzz.test_command_lines import CODES, complaint, in_time
 
-EACH = 12
+VALUES = 12
 RECORDS = ("jma", "knet-csv", "comma", "blank", "at2", "one column")
 """Formats whose files may be spoilt in their text."""
 
@@ -47,24 +47,24 @@ OPTIONS = {
 FLAGS = ("--strict", "--demean", "--vertical", "--no-vertical", "--resume", "--force", "--json")
 
 
-def write_batch(folder: Path, dice: np.random.Generator) -> list[str]:
+def write_batch(folder: Path, rng: np.random.Generator) -> list[str]:
     """Write records and a list of bodies, some of them spoilt; return the names of the records."""
     names = []
-    for number in range(int(dice.integers(1, 4))):
-        data = WRITERS[str(dice.choice(RECORDS))]([np.resize(row, 600) for row in SHORT])
+    for number in range(int(rng.integers(1, 4))):
+        data = WRITERS[str(rng.choice(RECORDS))]([np.resize(row, 600) for row in SHORT])
         names.append(f"r{number}")
-        (folder / names[-1]).write_bytes(spoil(data, dice) if dice.random() < 0.6 else data)
+        (folder / names[-1]).write_bytes(spoil(data, rng) if rng.random() < 0.6 else data)
     bodies = LIST.encode()
-    (folder / "bodies.csv").write_bytes(spoil(bodies, dice) if dice.random() < 0.4 else bodies)
+    (folder / "bodies.csv").write_bytes(spoil(bodies, rng) if rng.random() < 0.4 else bodies)
     return names
 
 
-def batch_line(names: list[str], dice: np.random.Generator) -> list[str]:
+def batch_line(names: list[str], rng: np.random.Generator) -> list[str]:
     """Return the words of a batch."""
-    words = ["batch", *names, "--solver", str(dice.choice(SOLVERS)), "--bodies", "bodies.csv", "--out", "out.csv", "--dt", "0.01"]
-    for option in dice.choice(list(OPTIONS), size=int(dice.integers(0, 3))):
-        words += [str(option), str(dice.choice(list(OPTIONS[str(option)]))) if dice.random() < 0.8 else str(dice.choice(STRANGE))]
-    return [*words, *map(str, dice.choice(FLAGS, size=int(dice.integers(0, 2))))]
+    words = ["batch", *names, "--solver", str(rng.choice(SOLVERS)), "--bodies", "bodies.csv", "--out", "out.csv", "--dt", "0.01"]
+    for option in rng.choice(list(OPTIONS), size=int(rng.integers(0, 3))):
+        words += [str(option), str(rng.choice(list(OPTIONS[str(option)]))) if rng.random() < 0.8 else str(rng.choice(STRANGE))]
+    return [*words, *map(str, rng.choice(FLAGS, size=int(rng.integers(0, 2))))]
 
 
 @pytest.fixture
@@ -79,13 +79,13 @@ def test_random_batch_gives_table_or_one_error(seeds, folder):
     for solver in SOLVERS:  # kernels may have to be compiled first
         CliRunner().invoke(main, ["batch", "--bodies", "gravestone", "--solver", solver, "--out", f"{solver}.csv"])
     met = {"answered": 0, "failed": 0, "refused": 0}
-    for seed in seeds(EACH):
-        dice = np.random.default_rng((seed, 3))
+    for seed in seeds(VALUES):
+        rng = np.random.default_rng((seed, 3))
         for old in folder.iterdir():
             old.unlink()
-        names = write_batch(folder, dice)
+        names = write_batch(folder, rng)
         read = {path: path.read_bytes() for path in folder.iterdir()}
-        words = batch_line(names, dice)
+        words = batch_line(names, rng)
         with in_time("batch"):
             result = CliRunner().invoke(main, words)
         assert complaint(words, result) == "" and result.exit_code in CODES, (seed, words, result.output[-500:])

@@ -19,7 +19,7 @@ from seisblock.studies.report.models import body_models
 from tests.fuzz.accidents import spoil
 from tests.fuzz.values import as_toml, with_mistakes
 
-EACH = 150
+VALUES = 150
 SLOWEST_S = 10.0
 LONGEST_MESSAGE = 1500
 
@@ -33,14 +33,14 @@ BODIES = ("gravestone", "chozusha", "wagata", "lantern")
 def load(path):
     """Look at a file of a body as every command does."""
     table = read_body_toml(path)
-    made = [body_models(str(path), frequency_vertical=10.0)] if table.get("kind") != "pile" else []
+    items = [body_models(str(path), frequency_vertical=10.0)] if table.get("kind") != "pile" else []
     table_restitution(table, str(path))
     table_friction(table, str(path))
     if table.get("kind") == "two-layer":
-        made += [load_two_layer(path, side="long"), load_contact(path)]
+        items += [load_two_layer(path, side="long"), load_contact(path)]
     if table.get("kind") == "pile":
-        made += [load_pile(path, reinforced=bool(table.get("reinforced"))), load_pile(path, mu=0.5)]
-    return [*made, load_block(path)]
+        items += [load_pile(path, reinforced=bool(table.get("reinforced"))), load_pile(path, mu=0.5)]
+    return [*items, load_block(path)]
 
 
 def refused_or(use, path, seed):
@@ -61,38 +61,38 @@ def test_random_body_values_give_body_or_one_error(name, seeds, tmp_path):
     table = read_body_toml(sample_path(f"{name}.toml"))
     path = tmp_path / "body.toml"
     read = 0
-    for seed in seeds(EACH):
+    for seed in seeds(VALUES):
         path.write_text(as_toml(with_mistakes(table, np.random.default_rng(seed))), encoding="utf-8")
-        made = refused_or(load, path, seed)
-        if made:
+        created = refused_or(load, path, seed)
+        if created:
             read += 1
-            block = made[-1]
+            block = created[-1]
             sizes = (block.radius, block.total_mass, block.slenderness, *block.restitutions, *block.corner_inertias)
             assert isinstance(block, Block) and np.isfinite(sizes).all() and block.radius > 0.0, seed
-    assert 0 < read < len(seeds(EACH))
+    assert 0 < read < len(seeds(VALUES))
 
 
 @pytest.mark.parametrize("name", BODIES)
 def test_damaged_body_file_gives_body_or_one_error(name, seeds, tmp_path):
     """Bytes lost, cut, repeated and changed."""
-    whole = sample_path(f"{name}.toml").read_bytes()
+    full = sample_path(f"{name}.toml").read_bytes()
     path = tmp_path / "body.toml"
-    for seed in seeds(EACH):
-        path.write_bytes(spoil(whole, np.random.default_rng((seed, 1))))
+    for seed in seeds(VALUES):
+        path.write_bytes(spoil(full, np.random.default_rng((seed, 1))))
         refused_or(load, path, seed)
 
 
 @pytest.mark.parametrize("name", ["aoyama", "survey"])
 def test_damaged_cemetery_gives_cemetery_or_one_error(name, seeds, tmp_path):
     """Every stone that is read has proportions and stands for some stones."""
-    whole = SURVEY if name == "survey" else sample_path("aoyama.csv").read_bytes()
+    full = SURVEY if name == "survey" else sample_path("aoyama.csv").read_bytes()
     path = tmp_path / "cemetery.csv"
     read = 0
-    for seed in seeds(2 * EACH):
-        path.write_bytes(spoil(whole, np.random.default_rng((seed, 2))))
-        found = refused_or(read_cemetery, path, seed)
-        if found:
+    for seed in seeds(2 * VALUES):
+        path.write_bytes(spoil(full, np.random.default_rng((seed, 2))))
+        result = refused_or(read_cemetery, path, seed)
+        if result:
             read += 1
-            assert found.size == sum(stone.count for stone in found.stones) > 0, seed
-            assert np.isfinite(found.ratios).all() and (found.ratios > 0.0).all(), seed
-    assert 0 < read < len(seeds(2 * EACH))
+            assert result.size == sum(stone.count for stone in result.stones) > 0, seed
+            assert np.isfinite(result.ratios).all() and (result.ratios > 0.0).all(), seed
+    assert 0 < read < len(seeds(2 * VALUES))

@@ -15,8 +15,8 @@ from seisblock.readers import read
 from tests.fuzz.accidents import spoil
 from tests.fuzz.formats import FORMATS
 
-EACH = 60
-SEALED = {"zip", "tar.gz"}
+VALUES = 60
+SEALED = {"zip", "tar.gz", "xlsx"}
 """Checksums tell of almost all accidents."""
 
 SLOWEST_S = 10.0
@@ -28,19 +28,19 @@ TALLER = 5.0
 @pytest.mark.parametrize("kind", FORMATS)
 def test_damaged_record_gives_record_or_one_error(kind, seeds, tmp_path):
     """A record that its file does not contradict, or one sentence of ours, in a moment."""
-    whole = FORMATS[kind]
+    full = FORMATS[kind]
     path = tmp_path / "spoilt"
-    path.write_bytes(whole.data)
-    before = read(path, **whole.options)
+    path.write_bytes(full.data)
+    before = read(path, **full.options)
     settled = {doubt.kind for doubt in before.doubts}
     peak = max(float(np.abs(c.acceleration).max()) for c in before.components)
     met = {"refused": 0, "doubted": 0, "believed": 0}
-    for seed in seeds(EACH):
-        data = spoil(whole.data, np.random.default_rng((seed, len(kind))))
+    for seed in seeds(VALUES):
+        data = spoil(full.data, np.random.default_rng((seed, len(kind))))
         path.write_bytes(data)
         start = time.process_time()
         try:
-            record = read(path, **whole.options)
+            record = read(path, **full.options)
         except InputError as error:
             assert "spoilt" in str(error), seed
             assert "\n" not in str(error) and len(str(error)) < LONGEST_MESSAGE, seed
@@ -52,7 +52,7 @@ def test_damaged_record_gives_record_or_one_error(kind, seeds, tmp_path):
             met["doubted"] += 1
             continue
         met["believed"] += 1
-        assert (why := whole.judge(data, record)) == "", (seed, why)
+        assert (reason := full.judge(data, record)) == "", (seed, reason)
         taller = max(float(np.abs(c.acceleration).max()) for c in record.components) / peak
         assert taller < TALLER, (seed, f"the peak grew by a factor of {taller:g} without a word")
     assert met["refused"] > 0, met

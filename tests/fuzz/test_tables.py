@@ -20,7 +20,7 @@ from tests.fuzz.accidents import spoil
 from tests.fuzz.test_batch import LIST
 from tests.fuzz.test_bodies import refused_or
 
-EACH = 60
+VALUES = 60
 
 SURVEYS = "place,latitude,longitude,stones,fallen\n" + "".join(
     f"{name},{35 + 0.1 * i},{139 - 0.1 * i},{40 + i},{3 * i}\n" for i, name in enumerate(("寺", "A", "B"))
@@ -38,15 +38,15 @@ CURVES = json.dumps(
 
 
 def all_finite(*values):
-    """Whether numbers are all of this world."""
+    """Return whether all numbers are finite."""
     return bool(np.isfinite(np.concatenate([np.ravel(np.asarray(value, dtype=float)) for value in values])).all())
 
 
 def valid_scan(path):
     """Return whether a scan makes a body with a mass and with angles."""
-    found = scan_body(path)
-    towards = [(each.slenderness_rad, each.radius_m) for each in scan_azimuths(found.body, step_deg=90.0)]
-    return found.volume > 0.0 and all_finite(found.volume, found.body.mass, *towards)
+    scan = scan_body(path)
+    towards = [(azimuth.slenderness_rad, azimuth.radius_m) for azimuth in scan_azimuths(scan.body, step_deg=90.0)]
+    return scan.volume > 0.0 and all_finite(scan.volume, scan.body.mass, *towards)
 
 
 def valid_body_list(path):
@@ -57,24 +57,26 @@ def valid_body_list(path):
 def valid_surveys(path):
     """Return whether no more stones fell at a place than stood there, and whether it is on the earth."""
     places = read_surveys(path)
-    return all(0 <= each.fallen <= each.stones > 0 and abs(each.latitude) <= 90.0 and abs(each.longitude) <= 360.0 for each in places)
+    return all(0 <= place.fallen <= place.stones > 0 and abs(place.latitude) <= 90.0 and abs(place.longitude) <= 360.0 for place in places)
 
 
 def valid_hazard(path):
     """Return whether the curves of a hazard fall, and their weights are a whole."""
     branches = read_hazard(path).branches
-    falling = all((np.diff(each.rates) <= 0.0).all() and (np.diff(each.levels) > 0.0).all() for each in branches)
-    return falling and sum(each.weight for each in branches) == pytest.approx(1.0)
+    falling = all((np.diff(branch.rates) <= 0.0).all() and (np.diff(branch.levels) > 0.0).all() for branch in branches)
+    return falling and sum(branch.weight for branch in branches) == pytest.approx(1.0)
 
 
 def valid_fragility(path):
     """Return whether curves have a middle and a spread."""
-    return all(each.curve.median > 0.0 and each.curve.beta > 0.0 and all_finite(each.curve.median) for each in read_fragility(path))
+    return all(item.curve.median > 0.0 and item.curve.beta > 0.0 and all_finite(item.curve.median) for item in read_fragility(path))
 
 
 def valid_outcomes(path):
     """Return whether outcomes have weights, and factors that are numbers."""
-    return all(each.weight >= 0.0 and all_finite(each.weight, each.scale) for each in read_outcomes(path, component="NS").observed)
+    return all(
+        outcome.weight >= 0.0 and all_finite(outcome.weight, outcome.scale) for outcome in read_outcomes(path, component="NS").observed
+    )
 
 
 def mesh(write, suffix):
@@ -88,7 +90,7 @@ def mesh(write, suffix):
     return written
 
 
-WHOLE = {
+FULL = {
     "bodies.csv": (lambda folder: LIST.encode("cp932"), valid_body_list),
     "surveys.csv": (lambda folder: SURVEYS.encode(), valid_surveys),
     "hazard.csv": (lambda folder: sample_path("synthetic_hazard.csv").read_bytes(), valid_hazard),
@@ -100,17 +102,17 @@ WHOLE = {
 }
 
 
-@pytest.mark.parametrize("name", WHOLE)
+@pytest.mark.parametrize("name", FULL)
 def test_damaged_table_gives_valid_data_or_one_error(name, seeds, tmp_path):
     """Bytes lost, cut, repeated and changed, lines swapped."""
-    make, makes_sense = WHOLE[name]
-    whole = make(tmp_path)
+    make, makes_sense = FULL[name]
+    full = make(tmp_path)
     path = tmp_path / name
     met = {True: 0, None: 0}
-    for seed in (None, *seeds(EACH)):
-        path.write_bytes(whole if seed is None else spoil(whole, np.random.default_rng((seed, len(name)))))
-        found = refused_or(makes_sense, path, seed)
-        assert found is not False, seed
-        assert found or seed is not None
-        met[found] += 1
+    for seed in (None, *seeds(VALUES)):
+        path.write_bytes(full if seed is None else spoil(full, np.random.default_rng((seed, len(name)))))
+        result = refused_or(makes_sense, path, seed)
+        assert result is not False, seed
+        assert result or seed is not None
+        met[result] += 1
     assert met[True] > 1 and met[None] > 0, met

@@ -1,4 +1,4 @@
-"""What people and programs write where a number, a text or a table belongs."""
+"""Random values in place of a number, a text or a table."""
 
 from __future__ import annotations
 
@@ -52,9 +52,9 @@ class Raw(str):
 
 def with_mistakes(table: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """Return a table after one to three mistakes in it, at any depth."""
-    made = copy.deepcopy({key: value for key, value in table.items() if key != "source"})
+    created = copy.deepcopy({key: value for key, value in table.items() if key != "source"})
     for _ in range(rng.integers(1, 4)):
-        places = list(_places(made))
+        places = list(_places(created))
         if not places:
             break
         home, key = places[rng.integers(len(places))]
@@ -67,7 +67,7 @@ def with_mistakes(table: dict[str, Any], rng: np.random.Generator) -> dict[str, 
             home.append(copy.deepcopy(home[key]))
         else:
             home[key] = Raw(STRANGE[rng.integers(len(STRANGE))])
-    return made
+    return created
 
 
 def _places(value: Any):

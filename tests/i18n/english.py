@@ -1,4 +1,4 @@
-"""What counts as English left in a text of another language."""
+"""Detection of English left in a text of another language."""
 
 import html
 import re
@@ -11,7 +11,7 @@ NAMES = (
     r"\b(?:NS|EW|UD|PGA|PGV|PGD|DEM|HZ|gal|kine|Hz|mm|cm|rad|kg|kN|deg|rms|ln|omega_V|pi)\b",  # directions, measures, units
     r"'[^']*'|\{[a-z|]+\}|\[[a-z|-]+\]",  # what was typed, and what may be
     r"\b[\w-]+(?:[./][\w-]+)+\b",  # names of files and of pairs of surfaces
-    r"Hanmer Springs Emergency Centre|\d+ km [a-z-]+ of Waiau|San Francisco, 1295 Shafter",  # places, as bundled records name them
+    r"Hanmer\s+Springs\s+Emergency\s+Centre|\d+ km [a-z-]+ of Waiau|San Francisco, 1295 Shafter",  # places, as bundled records name them
     r"INTEGER RANGE|INTEGER|FLOAT|TEXT|COMMAND|ARGS|OPTIONS",  # kinds of values
 )
 WORD = r"[A-Za-z][a-z]+"
@@ -22,7 +22,7 @@ def english_words(text):
     """Return what is English in a text: three words in a row that are neither names, units nor citations."""
     for name in NAMES:
         text = re.sub(name, "·", text)
-    return [found.group() for found in ENGLISH.finditer(text)]
+    return [result.group() for result in ENGLISH.finditer(text)]
 
 
 def visible_text(page):

@@ -34,15 +34,15 @@ def fields_of(text):
 
 
 def is_glued(argument):
-    """Whether a text is made of pieces where it is said."""
+    """Return whether a message is concatenated at its call."""
     texts = (node for node in ast.walk(argument) if isinstance(node, ast.Constant) and isinstance(node.value, str))
     return isinstance(argument, ast.JoinedStr) or (isinstance(argument, ast.BinOp) and any(texts))
 
 
 def test_percentages_have_one_form(every_text, entries):
     """Templates and translations have a blank before the sign, or leave it to the format; no f-string writes its own."""
-    told = [*every_text, *(str(message.string) for message in entries.values())]
-    assert not [text for text in told if re.search(r"[\d}][%％]", text.replace(TYPED, "").replace("%}", "}"))]
+    items = [*every_text, *(str(message.string) for message in entries.values())]
+    assert not [text for text in items if re.search(r"[\d}][%％]", text.replace(TYPED, "").replace("%}", "}"))]
     specs = (node for path in SOURCES for node in ast.walk(syntax_tree(path)) if isinstance(node, ast.FormattedValue))
     assert not [
         ast.unparse(node) for node in specs if node.format_spec is not None and ast.unparse(node.format_spec).rstrip("'\"").endswith("%")
@@ -61,7 +61,7 @@ def test_every_message_is_translated(every_text, entries):
 
 
 def test_catalogue_has_no_obsolete_entry(every_text, entries):
-    """What the source no longer says goes: ``python -m tests.catalogue`` takes it out."""
+    """The catalogue holds no message that the source no longer has."""
     stale = set(entries) - set(every_text)
     assert not stale, "\n".join(sorted(stale))
 
@@ -78,15 +78,15 @@ def test_translations_keep_fields_and_formats(entries):
 def test_messages_are_literal_templates_with_values(path):
     """No sentence is made by the language it is written in: what is said is a literal, and each of its fields has a value."""
     for call, argument in message_calls(syntax_tree(path)):
-        where = f"{path.relative_to(PACKAGE)}, line {call.lineno}"
-        assert not is_glued(argument), f"{where}: {ast.unparse(argument)} cannot be translated"
+        place = f"{path.relative_to(PACKAGE)}, line {call.lineno}"
+        assert not is_glued(argument), f"{place}: {ast.unparse(argument)} cannot be translated"
         function = getattr(call.func, "attr", getattr(call.func, "id", ""))
-        given = {keyword.arg for keyword in call.keywords}
-        if None in given or function in CHECK_FUNCTIONS | {"map", "N_"} or not given:
+        mapping = {keyword.arg for keyword in call.keywords}
+        if None in mapping or function in CHECK_FUNCTIONS | {"map", "N_"} or not mapping:
             continue
-        wanted = [{name for name, _, _ in fields_of(text)} for text in message_literals(argument)]
-        assert all(fields <= given for fields in wanted), f"{where}: a field without a value"
-        assert not wanted or given == set().union(*wanted), f"{where}: a value without a field"
+        expected = [{name for name, _, _ in fields_of(text)} for text in message_literals(argument)]
+        assert all(fields <= mapping for fields in expected), f"{place}: a field without a value"
+        assert not expected or mapping == set().union(*expected), f"{place}: a value without a field"
 
 
 def test_message_rules_detect_violations():
@@ -100,8 +100,8 @@ gettext(f"glued {name}")
 warning("glued " + name)
 progress(done + 1, every)
 """
-    found = list(message_calls(ast.parse(source)))
-    assert {text for _, argument in found for text in message_literals(argument)} == {"and {second}", "either", "or", "this", "that"}
-    assert [ast.unparse(argument) for _, argument in found if is_glued(argument)] == ["f'glued {name}'", "'glued ' + name"]
+    result = list(message_calls(ast.parse(source)))
+    assert {text for _, argument in result for text in message_literals(argument)} == {"and {second}", "either", "or", "this", "that"}
+    assert [ast.unparse(argument) for _, argument in result if is_glued(argument)] == ["f'glued {name}'", "'glued ' + name"]
     assert fields_of("{a!r} and {b:.2f}") == {("a", "r", ""), ("b", None, ".2f")}
     assert lazy_gettext(lazy_gettext("{a}", a=1)).template == "{a}"

@@ -1,4 +1,4 @@
-"""What stands on a figure is told in the language asked for, before it is drawn."""
+"""Texts of figures are in the language of the call before they are drawn."""
 
 import re
 
@@ -49,7 +49,7 @@ def figure_texts(monkeypatch):
 
 @pytest.fixture(scope="module")
 def translations():
-    """What a catalogue translates into something else: it should not be read on a Japanese figure."""
+    """Return the messages whose translation differs: their English should not be on a Japanese figure."""
     return {message_key(message) for message in read_catalogue("ja") if message.id and message.string != message.id}
 
 

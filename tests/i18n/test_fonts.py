@@ -10,7 +10,7 @@ from matplotlib.font_manager import FontManager, fontManager
 
 from seisblock.cli import main
 from seisblock.core.i18n import use_locale
-from seisblock.report.figures import fonts, style
+from seisblock.output.figures import fonts, style
 
 SERIF = [entry for entry in fontManager.ttflist if entry.name == "DejaVu Serif" and entry.style == "normal"]
 
@@ -61,7 +61,7 @@ def test_matplotlib_emits_no_font_warning(weights, install_fonts, caplog, tmp_pa
 
 
 class BareSystem(FontManager):
-    """What matplotlib finds where nobody has installed a font."""
+    """Fonts of a system on which no font is installed."""
 
     def __init__(self):
         super().__init__()
@@ -118,7 +118,7 @@ def test_dollar_sign_starts_no_mathtext(tmp_path):
 
 
 def test_powers_of_ten_on_axes_stay_mathtext():
-    """What matplotlib itself writes as mathematics is drawn as mathematics."""
+    """Powers of ten written by matplotlib stay mathtext."""
     figure, (axis,) = style.new_figure(1)
     axis.loglog([1, 1e6], [1, 1e6])
     figure.canvas.draw()
@@ -143,7 +143,7 @@ def test_missing_glyphs_give_one_warning(install_fonts, monkeypatch, tmp_path, r
     install_fonts()
     pile = tmp_path / "pile.toml"
     pile.write_text('kind = "pile"\n[[stone]]\nname = "竿"\nwidth = "25cm"\ndepth = "25cm"\nheight = "70cm"\n', encoding="utf-8")
-    told = CliRunner().invoke(main, ["stack", "--window", "24:25", "--stones", str(pile), "--plot", str(tmp_path / "out.png")])
-    assert told.exit_code == 0
-    assert "Japanese names appear as boxes in the figure" in " ".join(told.stderr.split())
+    result = CliRunner().invoke(main, ["stack", "--window", "24:25", "--stones", str(pile), "--plot", str(tmp_path / "out.png")])
+    assert result.exit_code == 0
+    assert "Japanese names appear as boxes in the figure" in " ".join(result.stderr.split())
     assert [str(warning.message) for warning in recwarn if "Glyph" in str(warning.message)] == []

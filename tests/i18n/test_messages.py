@@ -17,7 +17,7 @@ from seisblock.cli.locale import requested_locale
 from seisblock.core import i18n
 from seisblock.core.errors import BodyError, OutputError, RecordNotFoundError, SeisblockError
 from seisblock.core.i18n import N_, Message, escape_control, get_locale, gettext, join_clauses, lazy_gettext, use_locale
-from seisblock.report.directions import direction_label
+from seisblock.output.directions import direction_label
 
 PO = """
 msgid ""
@@ -59,7 +59,7 @@ def japanese(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("environment", "asked", "expected"),
+    ("environment", "option", "expected"),
     [
         ({"LANG": "ja_JP.UTF-8"}, None, "ja"),
         ({"LC_ALL": "en_US.UTF-8", "LANG": "ja_JP.UTF-8"}, None, "en"),
@@ -69,14 +69,14 @@ def japanese(tmp_path, monkeypatch):
         ({}, None, "en"),
     ],
 )
-def test_locale_option_precedes_environment(environment, asked, expected, monkeypatch):
+def test_locale_option_precedes_environment(environment, option, expected, monkeypatch):
     """The option prevails, then LC_ALL, LC_MESSAGES, LANG."""
     for name in ("LC_ALL", "LC_MESSAGES", "LANG"):
         monkeypatch.delenv(name, raising=False)
     for name, value in environment.items():
         monkeypatch.setenv(name, value)
-    assert get_locale(asked) == expected
-    with use_locale(asked):
+    assert get_locale(option) == expected
+    with use_locale(option):
         assert get_locale() == expected
 
 
@@ -122,12 +122,12 @@ def test_unknown_message_stays_english(japanese):
 def test_compiled_and_source_catalogues_agree(japanese):
     """A tree without compiled catalogues speaks as an installation does; the newer of the two counts."""
     texts = ["{name} falls", "{name}, after {time:.2f} s: {what}", "stone", "not translated yet", "unknown", ""]
-    written = [i18n._load_catalogue("ja")(text) for text in texts]
+    items = [i18n._load_catalogue("ja")(text) for text in texts]
     with (japanese / "seisblock.po").open("rb") as source, (japanese / "seisblock.mo").open("wb") as target:
         write_mo(target, read_po(source))
     (japanese / "seisblock.po").unlink()
     i18n._load_catalogue.cache_clear()
-    assert [i18n._load_catalogue("ja")(text) for text in texts] == written
+    assert [i18n._load_catalogue("ja")(text) for text in texts] == items
 
 
 def test_catalogue_reader_equals_babel():
@@ -225,6 +225,6 @@ def test_join_clauses_uses_the_separator_of_the_language(lang, text):
 def test_threads_use_locale_of_command():
     """Kernels are compiled in threads that know nothing of ``--lang``."""
     with use_locale("ja"):
-        told = bind_locale()
+        text = bind_locale()
     with ThreadPoolExecutor(1) as pool:
-        assert pool.submit(told, lazy_gettext("no motion")).result() == "静止"
+        assert pool.submit(text, lazy_gettext("no motion")).result() == "静止"

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from seisblock.report.text.tables import console, styled_line, table
-from seisblock.report.text.wrap import _CLOSING_PUNCTUATION, break_positions, display_width, is_wide, wrap_text
+from seisblock.output.text.tables import console, styled_line, table
+from seisblock.output.text.wrap import _CLOSING_PUNCTUATION, break_positions, display_width, is_wide, wrap_text
 
 TEXT = "記録の終了後に、北へ 12.5 cm 移動した（最大 14.0 cm）。計測震度は 6.57、最大加速度は 934 gal であった。"
 
@@ -19,14 +19,14 @@ def test_wrapped_lines_fit_width(text, width):
     """Nothing is lost but blanks at the ends of lines, and a line is wider only where a single word is."""
     lines = wrap_text(text, width)
     assert "".join("".join(lines).split()) == "".join(text.split())
-    for found in lines:
-        assert display_width(found) <= width or not break_positions(found.strip(), width)
+    for result in lines:
+        assert display_width(result) <= width or not break_positions(result.strip(), width)
 
 
 @pytest.mark.parametrize("width", range(12, 60))
 def test_wrapped_lines_obey_kinsoku(width):
     """Kinsoku: commas, full stops and closing brackets stay with what they close."""
-    assert all(found[0] not in _CLOSING_PUNCTUATION for found in wrap_text(TEXT, width))
+    assert all(result[0] not in _CLOSING_PUNCTUATION for result in wrap_text(TEXT, width))
 
 
 def test_character_width_equals_rich():
@@ -50,20 +50,20 @@ def test_console_breaks_japanese_between_characters():
     """A sentence fills its lines, alone or with others, but for what is not broken: at most a number with its unit and what closes it."""
     lines = console_output(styled_line(TEXT * 2), width=40).splitlines()
     longest = cell_len(" 14.0 cm）。")
-    assert all(40 - longest < cell_len(found) <= 40 for found in lines[:-1]), lines
+    assert all(40 - longest < cell_len(result) <= 40 for result in lines[:-1]), lines
     for width in range(20, 60):
-        assert not any(found.startswith(" ") for found in console_output(styled_line(TEXT), width=width).splitlines()), width
+        assert not any(result.startswith(" ") for result in console_output(styled_line(TEXT), width=width).splitlines()), width
 
 
 @pytest.mark.parametrize("width", range(30, 60))
 def test_wrapped_indented_sentence_is_complete(width):
     """Blanks at the head of a line take room, too: nothing is cut off at the edge of the terminal."""
-    told = console_output(styled_line("  " + TEXT * 2), width=width)
-    assert "".join(told.split()) == "".join((TEXT * 2).split())
+    output = console_output(styled_line("  " + TEXT * 2), width=width)
+    assert "".join(output.split()) == "".join((TEXT * 2).split())
 
 
 def test_console_escapes_markup_and_control_characters():
     """R15: square brackets of a station are printed as they are, emoji codes too; escapes are spelt out, in titles, headings, cells."""
     hostile = "[red]A[/red] :warning: \x1b[31m"
-    told = console_output(table(hostile, [hostile, "x"], [[hostile, 1.0]], caption=hostile), styled_line(hostile), width=120)
-    assert told.count("[red]A[/red] :warning: \\x1b[31m") == 5 and "\x1b" not in told
+    output = console_output(table(hostile, [hostile, "x"], [[hostile, 1.0]], caption=hostile), styled_line(hostile), width=120)
+    assert output.count("[red]A[/red] :warning: \\x1b[31m") == 5 and "\x1b" not in output

@@ -15,21 +15,21 @@ def test_duration_of_triangle():
 def test_duration_counts_both_signs_by_default():
     """Positive and negative stretches count; one side alone can be asked for."""
     wave = np.array([0.0, 2.0, -4.0, 0.0])
-    both, up, down = (duration_above(wave, 1.0, 1.0, side=side) for side in ("both", "positive", "negative"))
-    assert (both.count, up.count, down.count) == (2, 1, 1)
-    assert both.total_s == pytest.approx(up.total_s + down.total_s)
+    pair, up, down = (duration_above(wave, 1.0, 1.0, side=side) for side in ("both", "positive", "negative"))
+    assert (pair.count, up.count, down.count) == (2, 1, 1)
+    assert pair.total_s == pytest.approx(up.total_s + down.total_s)
     assert up.total_s == pytest.approx(0.5 + 1 / 6)
     assert down.total_s == pytest.approx(0.5 + 0.75)
-    assert both.longest_s == down.longest_s
+    assert pair.longest_s == down.longest_s
 
 
 def test_duration_of_sine_above_half_amplitude():
     """|sin| exceeds 1/2 for two thirds of the time, in two stretches per cycle."""
     t = np.arange(0, 10 + 5e-4, 1e-3)
-    found = duration_above(3 * np.sin(2 * np.pi * t), 1e-3, 1.5)
-    assert found.count == 20
-    assert found.total_s == pytest.approx(20 / 3, rel=1e-5)
-    assert found.longest_s == pytest.approx(1 / 3, rel=1e-5)
+    duration = duration_above(3 * np.sin(2 * np.pi * t), 1e-3, 1.5)
+    assert duration.count == 20
+    assert duration.total_s == pytest.approx(20 / 3, rel=1e-5)
+    assert duration.longest_s == pytest.approx(1 / 3, rel=1e-5)
 
 
 def test_duration_includes_open_ends():
@@ -47,8 +47,8 @@ def test_touched_threshold_does_not_count():
 
 def test_duration_below_threshold_is_zero():
     """Zeros, not an error."""
-    found = duration_above(np.zeros(5), 1.0, 1.0)
-    assert (found.total_s, found.longest_s, found.count) == (0.0, 0.0, 0)
+    duration = duration_above(np.zeros(5), 1.0, 1.0)
+    assert (duration.total_s, duration.longest_s, duration.count) == (0.0, 0.0, 0)
 
 
 @pytest.mark.parametrize("threshold", [0.0, -1.0, np.nan, np.inf])

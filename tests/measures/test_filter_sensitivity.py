@@ -1,4 +1,4 @@
-"""How far PGV and f move with the usual filters is told when it is worth telling."""
+"""Change of PGV and f with the usual filters is reported where it is relevant."""
 
 import json
 import math
@@ -36,13 +36,13 @@ def test_short_period_motion_is_insensitive_to_filter():
 def test_long_period_motion_is_sensitive_to_filter():
     """A burst of 0.1 Hz keeps half its velocity at 0.1 Hz without delay and 0.71 forwards only; f moves the other way."""
     wave = burst(0.1, cycles=3.0, length=400.0)
-    found = filter_range(wave, DT, np.abs(wave).max(), pgv(wave))
+    result = filter_range(wave, DT, np.abs(wave).max(), pgv(wave))
     rows = [f(wave, DT, hz) for f in (highpass_samples, causal_highpass_samples) for hz in (0.05, 0.1)]
     expected = sorted(pgv(row, highpass_hz=None) for row in rows)
-    assert found.pgv_m_s == pytest.approx((expected[0], expected[-1]), rel=1e-12)
+    assert result.pgv_m_s == pytest.approx((expected[0], expected[-1]), rel=1e-12)
     assert expected[0] / expected[-1] == pytest.approx(0.5, abs=0.06)
     top = np.abs(wave).max()
-    assert found.pga_pgv_hz == pytest.approx((top / (2 * math.pi * expected[-1]), top / (2 * math.pi * expected[0])), rel=1e-12)
+    assert result.pga_pgv_hz == pytest.approx((top / (2 * math.pi * expected[-1]), top / (2 * math.pi * expected[0])), rel=1e-12)
 
 
 def test_filter_sensitivity_of_zero_motion_is_none():
@@ -59,24 +59,30 @@ def test_measure_reports_filter_sensitivity(monkeypatch):
         "EW: PGV 183-237 kine, f 0.648-0.836 Hz for the usual high-pass filters"
         in CliRunner().invoke(main, ["measure", "synthetic_jma"]).stdout
     )
-    found = json.loads(CliRunner().invoke(main, ["measure", "synthetic_jma", "--json", "--component", "EW"]).stdout)["results"][0][
+    output = json.loads(CliRunner().invoke(main, ["measure", "synthetic_jma", "--json", "--component", "EW"]).stdout)["results"][0][
         "usual_highpass"
     ]
-    assert found["highpass_hz"] == [0.05, 0.1]
-    assert found["pgv_m_s"] == pytest.approx([1.83, 2.37], abs=0.01)
-    assert found["pga_pgv_hz"] == pytest.approx([0.648, 0.836], abs=0.001)
+    assert output["highpass_hz"] == [0.05, 0.1]
+    assert output["pgv_m_s"] == pytest.approx([1.83, 2.37], abs=0.01)
+    assert output["pga_pgv_hz"] == pytest.approx([0.648, 0.836], abs=0.001)
 
 
 def test_overturn_rate_reports_filter_sensitivity(monkeypatch):
-    """El Centro: a third of Aoyama's stones with one filter, a fifth with another; a frequency that is given does not move."""
+    """El Centro: a third of Aoyama's stones with one filter, a fifth with another; a frequency that is given does not move.
+
+    Runs of the record itself, the default, use neither PGV nor frequency.
+    """
     monkeypatch.setenv("COLUMNS", "200")
-    words = ["overturn-rate", "--cemetery", "aoyama.csv", "elcentro_1940_ns.csv"]
+    simulated = ["overturn-rate", "--cemetery", "aoyama.csv", "elcentro_1940_ns.csv"]
+    words = [*simulated, "--criterion", "furukawa"]
     assert "zero-phase or causal); rate 0.21 to 0.32" in CliRunner().invoke(main, words).stdout
-    found = json.loads(CliRunner().invoke(main, [*words, "--json"]).stdout)["results"][0]
-    assert found["rate_range"] == [0.21, 0.32]
-    assert found["usual_highpass"]["pga_pgv_hz"] == pytest.approx([1.42, 1.68], abs=0.01)
-    given = json.loads(CliRunner().invoke(main, [*words, "--frequency", "1.5", "--json"]).stdout)["results"][0]
-    assert (given["usual_highpass"], given["rate_range"]) == (None, None)
+    result = json.loads(CliRunner().invoke(main, [*words, "--json"]).stdout)["results"][0]
+    assert result["rate_range"] == [0.21, 0.32]
+    assert result["usual_highpass"]["pga_pgv_hz"] == pytest.approx([1.42, 1.68], abs=0.01)
+    entry = json.loads(CliRunner().invoke(main, [*words, "--frequency", "1.5", "--json"]).stdout)["results"][0]
+    assert (entry["usual_highpass"], entry["rate_range"]) == (None, None)
+    runs = json.loads(CliRunner().invoke(main, [*simulated, "--json"]).stdout)["results"][0]
+    assert (runs["usual_highpass"], runs["rate_range"]) == (None, None)
 
 
 def test_record_shorter_than_corner_period_warns():

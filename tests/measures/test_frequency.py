@@ -35,18 +35,18 @@ def test_ricker_constants_equal_closed_forms():
 @pytest.mark.parametrize("f0", [1.0, 2.0, 4.0])
 def test_equivalent_frequencies_of_ricker_wavelet(f0):
     """1.16582, 1 and 1.11072 times f0; what is off is the record's 5 ms, the 0.05 Hz high-pass and the 0.2 Hz window."""
-    found = frequencies(ricker(f0))
-    assert found.pga_pgv == pytest.approx(RICKER_PGA_PGV * f0, rel=3e-3)
-    assert found.fourier == pytest.approx(f0, rel=2e-3)
-    assert found.pulse_width == pytest.approx(RICKER_PULSE * f0, rel=1e-3)
+    result = frequencies(ricker(f0))
+    assert result.pga_pgv == pytest.approx(RICKER_PGA_PGV * f0, rel=3e-3)
+    assert result.fourier == pytest.approx(f0, rel=2e-3)
+    assert result.pulse_width == pytest.approx(RICKER_PULSE * f0, rel=1e-3)
 
 
 def test_equivalent_frequencies_of_fine_ricker_converge():
     """Without high-pass, with a narrow window and fine samples, the three closed forms come out to 1e-4."""
-    found = frequencies(ricker(1.0, dt=0.0005), 0.0005, velocity_highpass_hz=None, fourier_smoothing_hz=0.03)
-    assert found.pga_pgv == pytest.approx(RICKER_PGA_PGV, rel=1e-4)
-    assert found.fourier == pytest.approx(1.0, rel=1e-4)
-    assert found.pulse_width == pytest.approx(RICKER_PULSE, rel=1e-5)
+    result = frequencies(ricker(1.0, dt=0.0005), 0.0005, velocity_highpass_hz=None, fourier_smoothing_hz=0.03)
+    assert result.pga_pgv == pytest.approx(RICKER_PGA_PGV, rel=1e-4)
+    assert result.fourier == pytest.approx(1.0, rel=1e-4)
+    assert result.pulse_width == pytest.approx(RICKER_PULSE, rel=1e-5)
 
 
 @pytest.mark.parametrize("f0", [0.5, 1.0, 3.0])
@@ -57,10 +57,10 @@ def test_equivalent_frequencies_of_sine_from_rest(f0, cycles, highpass):
     The high-pass takes part where the record is long against its corner period of 20 s or holds many cycles.
     """
     wave = 2.0 * np.sin(2 * math.pi * f0 * np.arange(0, cycles / f0 + DT / 2, DT))
-    found = frequencies(wave, velocity_highpass_hz=highpass)
-    assert found.pga_pgv == pytest.approx(f0, rel=3e-3)
-    assert found.fourier == pytest.approx(f0, rel=6e-3)
-    assert found.pulse_width == pytest.approx(f0, rel=1e-3)
+    result = frequencies(wave, velocity_highpass_hz=highpass)
+    assert result.pga_pgv == pytest.approx(f0, rel=3e-3)
+    assert result.fourier == pytest.approx(f0, rel=6e-3)
+    assert result.pulse_width == pytest.approx(f0, rel=1e-3)
 
 
 @pytest.mark.parametrize("f0", [0.5, 1.0, 3.0])
@@ -75,9 +75,9 @@ def test_equivalent_frequencies_of_cosine(f0):
 def test_equivalent_frequencies_of_half_sine(f0):
     """A record that is one half sine: v = (A/w)(1 - cos), its swing halved by the mean, gives f by methods 1 and 3."""
     n = round(0.5 / f0 / DT)
-    found = frequencies(np.sin(math.pi * np.arange(n + 1) / n), velocity_highpass_hz=None)
-    assert found.pga_pgv == pytest.approx(f0, rel=2e-3)
-    assert found.pulse_width == pytest.approx(f0, rel=1e-9)
+    result = frequencies(np.sin(math.pi * np.arange(n + 1) / n), velocity_highpass_hz=None)
+    assert result.pga_pgv == pytest.approx(f0, rel=2e-3)
+    assert result.pulse_width == pytest.approx(f0, rel=1e-9)
 
 
 def test_equivalent_frequencies_of_half_sine_between_rests():
@@ -110,8 +110,8 @@ def test_pulse_cut_by_record_is_flagged_ambiguous(values):
 
 def test_zero_record_has_no_equivalent_frequency():
     """Zero throughout: three times None, and no division by zero."""
-    found = frequencies(np.zeros(1000))
-    assert (found.pga_pgv, found.fourier, found.pulse_width) == (None, None, None)
+    result = frequencies(np.zeros(1000))
+    assert (result.pga_pgv, result.fourier, result.pulse_width) == (None, None, None)
 
 
 def test_dominant_frequency_outside_band_is_none():

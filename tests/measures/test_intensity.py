@@ -5,9 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from seisblock.measures import arias_intensity, jma_class, jma_intensity, measure, significant_duration
-from seisblock.measures.intensity import _jma_filter
+from seisblock.measures import (
+    arias_intensity,
+    cumulative_absolute_velocity,
+    jma_class,
+    jma_intensity,
+    measure,
+    significant_duration,
+)
 from seisblock.records import Component, Record
+from seisblock.records.seismic_intensity import _jma_filter
 
 G = 9.80665
 
@@ -23,8 +30,8 @@ def test_jma_intensity_of_skew_horizontals_is_invariant():
     t = np.arange(0.0, 40.0, 0.01)
     north, east, up = (np.sin(w * t) * np.exp(-(((t - 20) / 6) ** 2)) for w in (9.0, 14.0, 21.0))
     ground = Record((Component("NS", 3 * north, 0.0), Component("EW", 2 * east, 90.0), Component("UD", up)), 0.01)
-    seen = [3 * north * math.cos(math.radians(a)) + 2 * east * math.sin(math.radians(a)) for a in (10.0, 50.0)]
-    askew = Record((Component("10", seen[0], 10.0), Component("50", seen[1], 50.0), Component("UD", up)), 0.01)
+    items = [3 * north * math.cos(math.radians(a)) + 2 * east * math.sin(math.radians(a)) for a in (10.0, 50.0)]
+    askew = Record((Component("10", items[0], 10.0), Component("50", items[1], 50.0), Component("UD", up)), 0.01)
     assert jma_intensity(askew) == pytest.approx(jma_intensity(ground), rel=1e-12)
 
 
@@ -85,8 +92,8 @@ def test_jma_intensity_ignores_offset():
 
 def test_jma_intensity_requires_three_components():
     """None, and a warning that says what is missing."""
-    alone = Record((Component("NS", np.sin(np.arange(1000.0))),), 0.01)
-    answer = measure(alone)
+    single = Record((Component("NS", np.sin(np.arange(1000.0))),), 0.01)
+    answer = measure(single)
     assert answer.jma_intensity is None
     assert answer.jma_class is None
     assert any("two horizontal components and the vertical" in text for text in answer.warnings)
@@ -105,3 +112,14 @@ def test_jma_intensity_of_short_or_zero_record_is_none():
 def test_jma_class_rounds_then_truncates(intensity, name):
     """Rounded to two decimals, cut to one, classed."""
     assert jma_class(intensity) == name
+
+
+def test_cumulative_absolute_velocity_is_exact_between_samples():
+    """A fine trapezium rule over the same polygon, a sine in closed form, and scaling."""
+    row = np.random.default_rng(4).standard_normal(500)
+    fine = np.interp(np.arange(0.0, 499.0, 1e-3), np.arange(500), row)
+    assert cumulative_absolute_velocity(row, 0.01) == pytest.approx(0.01 * 1e-3 * np.abs(fine).sum(), rel=1e-4)
+    sine = np.sin(2 * np.pi * np.arange(100001) * 1e-4)
+    # ten cycles of 1 Hz: 2 / pi each second
+    assert cumulative_absolute_velocity(sine, 1e-4) == pytest.approx(20.0 / np.pi, rel=1e-6)
+    assert cumulative_absolute_velocity(-3.0 * row, 0.01) == pytest.approx(3.0 * cumulative_absolute_velocity(row, 0.01))

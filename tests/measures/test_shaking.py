@@ -21,6 +21,7 @@ from seisblock.measures import measure
 from seisblock.measures.shaking import Thresholds, body_thresholds, response_shaking, shaking_of
 from seisblock.models.jump.options import JumpOptions
 from seisblock.models.respond.options import RespondOptions
+from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.solve import solve_rock
 from seisblock.models.slide.options import SlideOptions
@@ -66,10 +67,10 @@ def test_time_above_threshold_of_sine_is_arc_cosine(share):
 def test_time_above_asymmetric_thresholds_adds_one_side_each():
     motion = _sine(3.0, 2.0, 4)
     right, left = shaking_of(motion, (1.0, math.inf)), shaking_of(motion, (math.inf, 2.0))
-    both = shaking_of(motion, (1.0, 2.0))
-    assert both.time_above_threshold_s == pytest.approx(right.time_above_threshold_s + left.time_above_threshold_s, abs=1e-12)
-    assert both.longest_above_threshold_s == right.longest_above_threshold_s > left.longest_above_threshold_s
-    assert (right.threshold_m_s2, left.threshold_m_s2, both.threshold_m_s2) == (1.0, 2.0, 1.0)
+    shaking = shaking_of(motion, (1.0, 2.0))
+    assert shaking.time_above_threshold_s == pytest.approx(right.time_above_threshold_s + left.time_above_threshold_s, abs=1e-12)
+    assert shaking.longest_above_threshold_s == right.longest_above_threshold_s > left.longest_above_threshold_s
+    assert (right.threshold_m_s2, left.threshold_m_s2, shaking.threshold_m_s2) == (1.0, 2.0, 1.0)
 
 
 def test_motion_to_right_belongs_to_ground_acceleration_to_left():
@@ -145,6 +146,8 @@ CASES = {
         lambda outcome: outcome.uplifts,
     ),
     "stack": (TWO_STONES, StackOptions(), lambda outcome: outcome.stones[1].max_tilt_rad > 1e-7),
+    "rigid3d": (LOPSIDED, Rigid3dOptions(mu=0.7), lambda outcome: outcome.max_tilt_rad > 1e-7),
+    "rigid3d, slipping": (LOPSIDED, Rigid3dOptions(mu=0.15), lambda outcome: outcome.max_displacement_m > 1e-7),
 }
 
 

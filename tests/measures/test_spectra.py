@@ -25,21 +25,21 @@ def test_resonance_amplification_is_inverse_of_twice_damping():
     """A long sine at the natural period amplifies 1/(2h) in displacement."""
     h, period = 0.05, 0.5
     wave = np.sin(2 * math.pi / period * np.arange(0, 60, 0.01))
-    found = response_spectrum(wave, 0.01, [period], damping=h)
+    spectrum = response_spectrum(wave, 0.01, [period], damping=h)
     omega = 2 * math.pi / period
     # straight lines between 50 samples per cycle carry (sinc)^2 of the sine
     line = np.sinc(0.01 / period) ** 2
-    assert found.sd_m[0] * omega**2 == pytest.approx(line / (2 * h), rel=3e-3)
+    assert spectrum.sd_m[0] * omega**2 == pytest.approx(line / (2 * h), rel=3e-3)
 
 
 def test_spectrum_limits_at_short_and_long_periods():
     """A stiff oscillator has the PGA, a slow one the ground's displacement."""
     t = np.arange(0, 10, 0.01)
     a = np.exp(-((t - 5) ** 2)) * np.sin(2 * np.pi * t)
-    found = response_spectrum(a, 0.01, [0.01, 200.0])
-    assert found.sa_m_s2[0] == pytest.approx(np.abs(a).max(), rel=2e-3)
+    spectrum = response_spectrum(a, 0.01, [0.01, 200.0])
+    assert spectrum.sa_m_s2[0] == pytest.approx(np.abs(a).max(), rel=2e-3)
     ground = np.cumsum(np.cumsum(a)) * 1e-4
-    assert found.sd_m[1] == pytest.approx(np.abs(ground).max(), rel=0.05)
+    assert spectrum.sd_m[1] == pytest.approx(np.abs(ground).max(), rel=0.05)
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.05, 0.5])
@@ -48,19 +48,19 @@ def test_spectrum_includes_free_vibration_after_record(period, damping):
     """A half sine that ends the record counts as much as one with rest behind it, for every response."""
     pulse = np.sin(math.pi * np.arange(101) / 100)
     cut = response_spectrum(pulse, 0.01, [period], damping=damping)
-    whole = response_spectrum(np.concatenate((pulse, np.zeros(3000))), 0.01, [period], damping=damping)
+    full = response_spectrum(np.concatenate((pulse, np.zeros(3000))), 0.01, [period], damping=damping)
     for name in ("sa_m_s2", "sv_m_s", "sd_m"):
-        np.testing.assert_allclose(getattr(cut, name), getattr(whole, name), rtol=2e-5)
+        np.testing.assert_allclose(getattr(cut, name), getattr(full, name), rtol=2e-5)
 
 
 def test_spectrum_at_long_period_after_short_pulse():
     """A half sine of 1 s and 1 m/s^2 gives a 10 s oscillator its largest swing long after the record: 0.98 m, not 0.32 m."""
     pulse = np.sin(math.pi * np.arange(1001) / 1000)
-    found = response_spectrum(pulse, 0.001, [10.0], damping=0.0).sd_m[0]
+    spectrum = response_spectrum(pulse, 0.001, [10.0], damping=0.0).sd_m[0]
     # free swing after a half sine of duration d: 2 r / (1 - r^2) cos(pi / 2 r) / w^2 with r = T / 2 d
     ratio = 5.0
     expected = 2 * ratio / (ratio**2 - 1) * math.cos(math.pi / (2 * ratio)) * (10 / (2 * math.pi)) ** 2
-    assert found == pytest.approx(expected, rel=1e-5)
+    assert spectrum == pytest.approx(expected, rel=1e-5)
 
 
 @pytest.mark.parametrize("period", [0.02, 0.0731, 0.4, 1.0])
@@ -98,8 +98,8 @@ def test_parzen_window_has_its_bandwidth():
     dt, f0, bandwidth = 0.01, 5.0, 0.4
     wave = np.sin(2 * np.pi * f0 * np.arange(0, 2000, dt))
     frequency, amplitude = fourier_amplitude(wave, dt, smoothing_hz=bandwidth)
-    near = np.abs(frequency - f0) < 2.0
-    window = amplitude[near] ** 2
+    nearby = np.abs(frequency - f0) < 2.0
+    window = amplitude[nearby] ** 2
     window /= window.sum() * frequency[1]
     assert 1 / ((window**2).sum() * frequency[1]) == pytest.approx(bandwidth, rel=5e-3)
 

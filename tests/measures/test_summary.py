@@ -54,9 +54,9 @@ def test_measure_of_filtered_record_keeps_pgv(el_centro):
 
 def test_measure_selects_components_in_order(el_centro):
     """Codes in any case, an azimuth in degrees, in the order asked."""
-    found = measure(el_centro, ["ud", "90", "0"]).components
-    assert [m.component for m in found] == ["UD", "90", "0"]
-    assert found[1].pga_m_s2 == measure(el_centro, ["EW"]).components[0].pga_m_s2
+    measures = measure(el_centro, ["ud", "90", "0"]).components
+    assert [m.component for m in measures] == ["UD", "90", "0"]
+    assert measures[1].pga_m_s2 == measure(el_centro, ["EW"]).components[0].pga_m_s2
     with pytest.raises(ComponentError, match="NS, EW, UD"):
         measure(el_centro, ["XX"])
 

@@ -80,16 +80,16 @@ def test_vertical_true_without_vertical_component_is_rejected(solve, body):
 @pytest.mark.parametrize(("solve", "body"), [SOLVERS[3], SOLVERS[4]], ids=["uplift", "stack"])
 def test_solvers_in_space_accept_record_without_vertical_component(solve, body):
     """Solvers in space take a record without a vertical component for one that does not move up and down."""
-    alone = solve(body, motion_of(LEVEL, "NS"))
-    np.testing.assert_array_equal(alone.time, solve(body, motion_of(LEVEL, "NS"), vertical=False).time)
+    single = solve(body, motion_of(LEVEL, "NS"))
+    np.testing.assert_array_equal(single.time, solve(body, motion_of(LEVEL, "NS"), vertical=False).time)
 
 
 @pytest.mark.parametrize(("solve", "body"), [SOLVERS[i] for i in (0, 1, 3, 4)], ids=["slide", "rock", "uplift", "stack"])
 def test_vertical_accepts_bool_or_factor(solve, body):
     """True acts like 1 and False like 0; half the vertical motion acts like a motion of half its height."""
     half = Motion.from_arrays(MOTION.horizontal, 0.01, vertical=0.5 * MOTION.vertical)
-    for one, other, motion in ((True, 1.0, MOTION), (False, 0.0, MOTION), (0.5, True, half)):
-        first, second = solve(body, MOTION, vertical=one), solve(body, motion, vertical=other)
+    for single, right, motion in ((True, 1.0, MOTION), (False, 0.0, MOTION), (0.5, True, half)):
+        first, second = solve(body, MOTION, vertical=single), solve(body, motion, vertical=right)
         assert first.outcome == second.outcome
     assert solve(body, MOTION, vertical=True).outcome != solve(body, MOTION, vertical=False).outcome
     with pytest.raises(ParameterError, match="vertical gain must be a finite number"):

@@ -43,9 +43,9 @@ UNITS = {
     "vertical_acceleration": "m/s^2",
     "ground_velocity": "m/s",
 }
-OWN = {
+MAPPING = {
     "slide": {"lower_limit", "upper_limit"},
-    "uplift": {f"{what}_{corner}" for what in ("uplift", "contact_force") for corner in (1, 2, 3, 4)},
+    "uplift": {f"{quantity}_{corner}" for quantity in ("uplift", "contact_force") for corner in (1, 2, 3, 4)},
     "respond": {"lift", "slip_velocity", "slip_path"},
 }
 """What only one model knows."""
@@ -58,13 +58,13 @@ def response(request):
 
 
 def test_channels_of_one_name_have_one_quantity_and_unit(response):
-    """What two solvers know has one name; a pile's stones carry theirs before it."""
+    """Channels of one quantity have one name in all solvers; those of a pile begin with the stone."""
     if response.model == "stack":
         kinds = {channel.name.removeprefix(f"{name}_") for channel in response.channels for name in response.body.names}
         kinds = {kind for kind in kinds if "_" not in kind}
         assert kinds == {"tilt", "slip", "x", "y", "z", "qw", "qx", "qy", "qz"}
         return
-    common = {channel.name: channel.unit for channel in response.channels if channel.name not in OWN.get(response.model, ())}
+    common = {channel.name: channel.unit for channel in response.channels if channel.name not in MAPPING.get(response.model, ())}
     assert common.items() <= UNITS.items()
     assert "rotation" in common or response.model == "slide"
     assert "displacement" in common or response.model == "rock"

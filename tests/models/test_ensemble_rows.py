@@ -65,17 +65,17 @@ def rows_of(name):
 @pytest.mark.parametrize(("width", "peak"), [(12, 7.0), (40, 9.0)])
 def test_ensemble_rows_equal_single_runs(name, width, peak):
     """Ends, extrema, first events and counts, each row with factors of its own."""
-    alone, many, p, starts, mode = rows_of(name)
+    single, rows, p, starts, mode = rows_of(name)
     motion = shaking(width, peak)
     gains = np.column_stack([RNG.uniform(0.4, 1.3, len(p)), RNG.uniform(-0.3, 0.3, len(p)), RNG.uniform(0.0, 1.0, len(p))])
-    found = integrate_many(many, motion, p, starts, mode, gains=gains)
-    assert found.n_events.any()
+    result = integrate_many(rows, motion, p, starts, mode, gains=gains)
+    assert result.n_events.any()
     for row in range(len(p)):
-        one = integrate(alone, motion, p[row], np.broadcast_to(starts, (len(p), starts.shape[-1]))[row], mode, gains=gains[row])
-        np.testing.assert_array_equal(found.final[row], one.final)
-        np.testing.assert_array_equal(found.extrema[row], one.extrema)
-        assert (found.final_mode[row], found.end_time[row], found.n_events[row]) == (one.final_mode, one.end_time, one.n_events)
-        np.testing.assert_equal(found.first_event_time[row], one.events[0].time if one.events else np.nan)
+        first = integrate(single, motion, p[row], np.broadcast_to(starts, (len(p), starts.shape[-1]))[row], mode, gains=gains[row])
+        np.testing.assert_array_equal(result.final[row], first.final)
+        np.testing.assert_array_equal(result.extrema[row], first.extrema)
+        assert (result.final_mode[row], result.end_time[row], result.n_events[row]) == (first.final_mode, first.end_time, first.n_events)
+        np.testing.assert_equal(result.first_event_time[row], first.events[0].time if first.events else np.nan)
 
 
 def test_sliding_study_equals_solve_slide():
@@ -85,7 +85,7 @@ def test_sliding_study_equals_solve_slide():
     assert {point.slips for point in points} == {True}
     for point in points:
         base = SlidingBase(point.mu, point.mu_kinetic, point.slope_deg)
-        one = solve_slide(base, motion, vertical=point.vertical).outcome
+        first = solve_slide(base, motion, vertical=point.vertical).outcome
         for key in (
             "slips",
             "slip_start_s",
@@ -96,4 +96,4 @@ def test_sliding_study_equals_solve_slide():
             "slip_count",
             "slides_at_end",
         ):
-            assert getattr(point, key) == getattr(one, key), key
+            assert getattr(point, key) == getattr(first, key), key

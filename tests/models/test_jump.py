@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.core.errors import ParameterError
 from seisblock.models.jump import modes
-from seisblock.models.jump.chain import JUMPED, NO_JUMP
+from seisblock.models.jump.chain import ChainOutcome
 from seisblock.models.jump.solve import solve_jump
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
@@ -44,9 +44,9 @@ def test_rise_equals_flight_path_cut_short_by_spin(spin):
     assert early == (abs(spin) >= 0.6)
     expected = up * flown - G * flown**2 / 2 if early else up**2 / (2 * G)
     assert chain.max_rise_m == pytest.approx(expected, rel=1e-9)
-    seen = float(response["height"][flight_rows(response)].max()) - SHORT.centroid_height
-    assert seen <= chain.max_rise_m * (1.0 + 1e-9)
-    assert chain.max_rise_m - seen <= G * PULSE.dt**2 / 8 + 1e-12
+    observed = float(response["height"][flight_rows(response)].max()) - SHORT.centroid_height
+    assert observed <= chain.max_rise_m * (1.0 + 1e-9)
+    assert chain.max_rise_m - observed <= G * PULSE.dt**2 / 8 + 1e-12
 
 
 def test_landing_of_the_paper_can_create_energy_and_warns():
@@ -142,26 +142,26 @@ def test_slip_after_landing_stops_at_kinetic_friction_distance():
     response = solve_jump(SHORT, PULSE, contact=Contact(0.1, 0.1, 0.95, 0.85), landing="friction", spin="ratio=0", gravity=G)
     chain = response.outcome.chains[0]
     speed, fall = chain.impact_velocity_rad_s * SHORT.centroid_height * 0.95, 0.85 * chain.impact_velocity_rad_s * 1.04
-    assert chain.outcome == JUMPED
+    assert chain.outcome == ChainOutcome.JUMPED
     assert chain.friction_needed_at_landing == pytest.approx(0.1, rel=1e-6)
     # at most the impulse of one flat landing and at least that of two comes off the speed before it slides flat
-    most, least = (max(speed - 0.1 * share * fall, 0.0) ** 2 / (2 * 0.1 * G) for share in (1.0, 3.0))
-    assert least < chain.rock_slide_displacement_m < most
+    maximum, minimum = (max(speed - 0.1 * share * fall, 0.0) ** 2 / (2 * 0.1 * G) for share in (1.0, 3.0))
+    assert minimum < chain.rock_slide_displacement_m < maximum
 
 
 def test_outcome_sums_all_chains_and_reports_final_state():
     """The first chain of this record barely moves the block, later ones do: the sum and the end are told, not the first (N4)."""
     motion = motion_of(read("synthetic_jma.csv"), "NS")
-    every = solve_jump(SHORT, motion, contact=CONTACT)
+    all_cases = solve_jump(SHORT, motion, contact=CONTACT)
     first = solve_jump(SHORT, motion, contact=CONTACT, first=True)
-    chains = every.outcome.chains
+    chains = all_cases.outcome.chains
     assert len(chains) == 3
     assert first.outcome.chains == chains[:1]
-    assert every.outcome.total_displacement_m == pytest.approx(sum(chain.total_displacement_m for chain in chains), rel=1e-12)
-    assert every.outcome.final_displacement_m == pytest.approx(every.outcome.total_displacement_m, abs=1e-12)
-    assert every["displacement"][-1] == every.outcome.final_displacement_m
-    assert every.outcome.total_displacement_m < 0.0 < first.outcome.total_displacement_m
-    assert every.outcome.friction_needed_at_landing == max(chain.friction_needed_at_landing for chain in chains)
+    assert all_cases.outcome.total_displacement_m == pytest.approx(sum(chain.total_displacement_m for chain in chains), rel=1e-12)
+    assert all_cases.outcome.final_displacement_m == pytest.approx(all_cases.outcome.total_displacement_m, abs=1e-12)
+    assert all_cases["displacement"][-1] == all_cases.outcome.final_displacement_m
+    assert all_cases.outcome.total_displacement_m < 0.0 < first.outcome.total_displacement_m
+    assert all_cases.outcome.friction_needed_at_landing == max(chain.friction_needed_at_landing for chain in chains)
 
 
 def test_jump_before_smaller_chain_is_reported():
@@ -173,24 +173,24 @@ def test_jump_before_smaller_chain_is_reported():
     assert outcome.chains[0].total_displacement_m == pytest.approx(
         solve_jump(SHORT, PULSE, contact=CONTACT, spin="ratio=0.19", gravity=G).outcome.final_displacement_m
     )
-    assert outcome.outcome == JUMPED
+    assert outcome.outcome == ChainOutcome.JUMPED
     stays = solve_jump(SHORT, PULSE, contact=CONTACT, spin="ratio=0.9", gravity=G).outcome
-    assert (stays.outcome, stays.final_displacement_m) == (NO_JUMP, 0.0)
+    assert (stays.outcome, stays.final_displacement_m) == (ChainOutcome.NO_JUMP, 0.0)
 
 
 def test_window_limits_onset_but_not_later_motion():
     """The chain that starts in a window of 0.1 s goes on for a second beyond it, as in the whole record (N5)."""
     motion = motion_of(read("synthetic_jma.csv"), "EW")
-    whole = solve_jump(SHORT, motion, contact=CONTACT).outcome.chains
+    full = solve_jump(SHORT, motion, contact=CONTACT).outcome.chains
     inside = solve_jump(SHORT, motion, contact=CONTACT, windows=[(26.1, 26.2)]).outcome.chains
-    assert inside == (whole[1],)
+    assert inside == (full[1],)
     assert inside[0].end_s > 26.9
     two = solve_jump(SHORT, motion, contact=CONTACT, windows=[(27.0, None), (None, 25.6)]).outcome.chains
-    assert two == (whole[0], whole[2])
+    assert two == (full[0], full[2])
 
 
 def test_window_opening_above_threshold_starts_rocking_there():
-    """Where the ground is above the threshold when a window opens, rocking starts there, between two samples too."""
+    """Rocking starts at the opening of a window at which the ground exceeds the threshold, also between two samples."""
     plateau = Motion.from_arrays(np.concatenate([np.full(60, 5.0), np.zeros(300)]), 0.01)
     for begins in (0.2, 0.2345):
         chain = solve_jump(SHORT, plateau, contact=CONTACT, windows=[(begins, None)], gravity=G).outcome.chains[0]
@@ -209,12 +209,12 @@ def test_motion_continues_after_end_of_record(landing):
     """Cut after its pulse the record has the chain of the longer one, which ends with three seconds of still ground (N5)."""
     samples = int(np.flatnonzero(PULSE.horizontal)[-1]) + 2
     short = Motion.from_arrays(PULSE.horizontal[:samples], PULSE.dt)
-    (whole,), (cut,) = (
+    (full,), (cut,) = (
         solve_jump(SHORT, m, contact=CONTACT, landing=landing, spin="ratio=0.19", gravity=G).outcome.chains for m in (PULSE, short)
     )
-    assert cut.outcome == whole.outcome == JUMPED
+    assert cut.outcome == full.outcome == ChainOutcome.JUMPED
     for key in ("impact_s", "landing_s", "end_s", "total_displacement_m", "max_rotation_rad", "friction_needed_at_landing"):
-        assert getattr(cut, key) == pytest.approx(getattr(whole, key), abs=1e-11)
+        assert getattr(cut, key) == pytest.approx(getattr(full, key), abs=1e-11)
     assert cut.end_s > short.time[-1]
 
 
@@ -222,8 +222,8 @@ def test_ground_acceleration_is_zero_after_last_sample():
     """A record that ends in mid-push stops pushing there: the same as one whose last interval, a hundredth as long, ramps down."""
     push = Motion.from_arrays(np.full(41, 6.5), 0.01)
     steep = Motion.from_arrays(np.concatenate([np.full(40_001, 6.5), np.zeros(20_000)]), 1e-5)
-    found, ramp = (solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.19", gravity=G).outcome.chains[0] for motion in (push, steep))
-    assert found.impact_s == pytest.approx(ramp.impact_s, abs=2e-4)
+    result, ramp = (solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.19", gravity=G).outcome.chains[0] for motion in (push, steep))
+    assert result.impact_s == pytest.approx(ramp.impact_s, abs=2e-4)
     response = solve_jump(SHORT, push, contact=CONTACT, spin="ratio=0.19", gravity=G)
     after = response.time > push.time[-1]
     assert after.any()

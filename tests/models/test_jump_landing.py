@@ -1,4 +1,4 @@
-"""What a landing and an impact decide: whether the foot holds, whether the block leaves the floor, how the paper's spin reads."""
+"""Landing and impact: hold or slip of the foot, departure from the floor, the paper's spin."""
 
 import math
 
@@ -41,11 +41,11 @@ def test_landed_foot_sticks_within_static_friction(side, tilt, omega, shake, mu)
     p = modes.flight_parameters(SHORT, G, mu, 0.01, 0.0, 0.01)
     y = np.array([theta, omega, 0.3, 1.0, 0.1, -1.0, *[0.0] * 4])
     corner = modes.RIGHT if side > 0 else modes.LEFT
-    found = flight_reset(modes.FLIGHT, corner, y, np.array([[shake, 0.0]]), p)
+    result = flight_reset(modes.FLIGHT, corner, y, np.array([[shake, 0.0]]), p)
     if abs(push) <= mu * normal:
-        assert found == modes.contact_mode(corner, modes.STICK)
+        assert result == modes.contact_mode(corner, modes.STICK)
     else:
-        assert found == modes.contact_mode(corner, modes.SLIP_FORWARD if push < 0.0 else modes.SLIP_BACKWARD)
+        assert result == modes.contact_mode(corner, modes.SLIP_FORWARD if push < 0.0 else modes.SLIP_BACKWARD)
 
 
 def test_centrifugal_force_changes_stick_to_slip():

@@ -140,17 +140,17 @@ def test_lossless_block_below_energy_barrier_does_not_overturn():
 def test_free_rocking_outcome_equals_integration_over_still_record(theta, omega, linear):
     """Verdict, times and largest lean of free rocking are those of a long still record, starting on either side of alpha."""
     block = from_slenderness(0.25, 2.14)
-    found = free_rocking_outcome(
+    result = free_rocking_outcome(
         rock_params(block, Motion.from_arrays(np.zeros(2), 0.01), options=RockOptions(restitution=0.95, linear=linear, gravity=G)),
         theta,
         omega,
     )
     long = solve_rock(block, Motion.from_arrays(np.zeros(4000), 0.005), restitution=0.95, linear=linear, initial=(theta, omega)).outcome
-    assert found.overturns == long.overturned
-    assert max(found.max_leans) == pytest.approx(long.max_rotation_rad, rel=1e-9)
-    if found.overturns:
-        assert found.overturns_s == pytest.approx(long.overturning_time_s, abs=1e-9)
-        assert {1: "+x", -1: "-x"}[found.direction] == long.overturned_towards
+    assert result.overturns == long.overturned
+    assert max(result.max_leans) == pytest.approx(long.max_rotation_rad, rel=1e-9)
+    if result.overturns:
+        assert result.overturns_s == pytest.approx(long.overturning_time_s, abs=1e-9)
+        assert {1: "+x", -1: "-x"}[result.direction] == long.overturned_towards
 
 
 def test_passing_alpha_and_returning_is_not_overturning():
@@ -169,7 +169,7 @@ def test_phases_cover_the_record_without_gaps():
     phases = response.phases
     assert phases[0].start_s == 3.0
     assert phases[-1].end_s == pytest.approx(9.0)
-    assert all(one.end_s == other.start_s for one, other in pairwise(phases))
+    assert all(first.end_s == second.start_s for first, second in pairwise(phases))
 
 
 def test_window_does_not_shift_times():

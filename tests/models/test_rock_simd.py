@@ -23,21 +23,21 @@ BLOCKS = rectangular_blocks(RNG.uniform(0.08, 0.5, 45), RNG.uniform(0.4, 2.0, 45
 GAINS = np.column_stack([RNG.uniform(0.3, 1.6, 45), RNG.uniform(-0.4, 0.4, 45), RNG.uniform(-0.5, 0.5, 45)])
 
 
-def assert_same(one: Ensemble, other: Ensemble):
+def assert_same(first: Ensemble, second: Ensemble):
     """Hold every number of the two against each other."""
     for field in fields(Ensemble):
         if field.name != "model":
-            np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name), err_msg=field.name)
+            np.testing.assert_array_equal(getattr(first, field.name), getattr(second, field.name), err_msg=field.name)
 
 
 @pytest.mark.parametrize("gains", [GAINS, np.array([[1.0, 0.0, 0.0]])], ids=["turned, with the vertical", "along alone"])
 def test_simd_rows_equal_engine_bit_for_bit(gains):
     """Random blocks, more than there are lanes: some rest, some rock, some pass alpha, some fall; states, extrema, times, counts, stays."""
-    some = 20 if len(gains) == 1 else 45
-    p = parameters(rock_batch_params(BLOCKS, MOTION), 0.01)[:some]
-    alone = integrate_many(ROCKING, MOTION, p, np.zeros(2), REST, gains=gains)
-    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, np.zeros(2), REST, gains=gains), alone)
-    assert (alone.final_mode == -1).any() and (alone.final_mode >= 0).any() and (alone.n_events > 30).any()
+    subset = 20 if len(gains) == 1 else 45
+    p = parameters(rock_batch_params(BLOCKS, MOTION), 0.01)[:subset]
+    single = integrate_many(ROCKING, MOTION, p, np.zeros(2), REST, gains=gains)
+    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, np.zeros(2), REST, gains=gains), single)
+    assert (single.final_mode == -1).any() and (single.final_mode >= 0).any() and (single.n_events > 30).any()
 
 
 @pytest.mark.kernel
@@ -45,21 +45,21 @@ def test_simd_with_empty_lanes_equals_engine():
     """Two blocks that lean: most lanes stay empty."""
     motion = Motion(MOTION.acceleration[:, 380:460], 0.01)
     p = parameters(rock_batch_params(BLOCKS, motion), 0.01)[[7, 30]]
-    alone = integrate_many(ROCKING, motion, p, [0.05, 0.0], TO_RIGHT, gains=GAINS[:2])
-    assert_same(integrate_many(ROCKING_SIMD_MODEL, motion, p, [0.05, 0.0], TO_RIGHT, gains=GAINS[:2]), alone)
-    assert (alone.n_events > 0).all()
+    single = integrate_many(ROCKING, motion, p, [0.05, 0.0], TO_RIGHT, gains=GAINS[:2])
+    assert_same(integrate_many(ROCKING_SIMD_MODEL, motion, p, [0.05, 0.0], TO_RIGHT, gains=GAINS[:2]), single)
+    assert (single.n_events > 0).all()
 
 
 def test_simd_with_initial_state_resumes_bit_for_bit(monkeypatch):
     """From a lean, in slices of a few steps, and through a motion that is given stretch by stretch: the same bits."""
     p = parameters(rock_batch_params(BLOCKS, MOTION, options=RockOptions(restitution=0.97)), 0.01)
     start = np.column_stack([-0.5 * p[:, 4], np.linspace(-0.3, 0.3, len(p))])
-    alone = integrate_many(ROCKING, MOTION, p, start, TO_LEFT, gains=GAINS)
+    single = integrate_many(ROCKING, MOTION, p, start, TO_LEFT, gains=GAINS)
     monkeypatch.setattr("seisblock.dynamics.ensemble.STEPS_PER_SLICE", 40)
-    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, start, TO_LEFT, gains=GAINS), alone)
+    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, start, TO_LEFT, gains=GAINS), single)
     monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 10)
     monkeypatch.setattr("seisblock.records.motion.SEGMENT_SAMPLES", 71)
-    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, start, TO_LEFT, gains=GAINS), alone)
+    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, start, TO_LEFT, gains=GAINS), single)
 
 
 def test_linear_equation_uses_engine_bit_for_bit():

@@ -31,40 +31,40 @@ OPTIONS = [{}, {"vertical": 0.7}, {"linear": True, "restitution": 0.9}, {"gravit
 def test_rock_many_rows_equal_single_runs(options):
     """Several blocks under one gain, one block under several, and all of both: bit for bit what solve_rock says of each."""
     rockers = [rock_params(block, MOTION, RockOptions(**options)) for block in BLOCKS]
-    alone = [solve_rock(block, MOTION, **options).outcome for block in BLOCKS]
-    assert {outcome.overturned for outcome in alone} == {False, True}
+    single = [solve_rock(block, MOTION, **options).outcome for block in BLOCKS]
+    assert {outcome.overturned for outcome in single} == {False, True}
     together = rock_verdicts(rockers, MOTION, rockers[0].gains())
-    assert together.overturned.tolist() == [outcome.overturned for outcome in alone]
-    np.testing.assert_array_equal(together.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in alone])
-    one = rockers[4]
-    scaled = rock_verdicts([one], MOTION, [one.gains(scale) for scale in SCALES])
+    assert together.overturned.tolist() == [outcome.overturned for outcome in single]
+    np.testing.assert_array_equal(together.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in single])
+    first = rockers[4]
+    scaled = rock_verdicts([first], MOTION, [first.gains(scale) for scale in SCALES])
     for scale, overturned, ratio in zip(SCALES, scaled.overturned, scaled.max_rotation_ratio, strict=True):
-        found = rock_verdict(one.block, MOTION, scale=scale, options=RockOptions(**options))
-        assert (found.overturned, found.max_rotation_ratio) == (overturned, ratio)
-    np.testing.assert_array_equal(scaled.overturned, overturns_at(one, MOTION, SCALES))
+        result = rock_verdict(first.block, MOTION, scale=scale, options=RockOptions(**options))
+        assert (result.overturned, result.max_rotation_ratio) == (overturned, ratio)
+    np.testing.assert_array_equal(scaled.overturned, overturns_at(first, MOTION, SCALES))
 
 
 def test_rock_many_with_block_array_equals_blocks():
     """Blocks that were never objects have the verdicts of those that were, on a record that ends while some of them still rock."""
     motion = motion_of(Record(tuple(Component(c.code, c.acceleration[:530]) for c in RECORD.components), 0.01), "NS")
     arrays = rock_batch_params(to_block_array(BLOCKS), motion, options=RockOptions(vertical=True))
-    found = rock_verdicts(arrays, motion, arrays.gains(1.2))
+    result = rock_verdicts(arrays, motion, arrays.gains(1.2))
     scaled = Motion(1.2 * motion.acceleration, 0.01)
-    alone = [solve_rock(block, scaled, vertical=True).outcome for block in BLOCKS]
-    assert any(outcome.decided_after_record for outcome in alone)
-    assert found.overturned.tolist() == [outcome.overturned for outcome in alone]
-    np.testing.assert_allclose(found.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in alone], rtol=1e-9)
+    single = [solve_rock(block, scaled, vertical=True).outcome for block in BLOCKS]
+    assert any(outcome.decided_after_record for outcome in single)
+    assert result.overturned.tolist() == [outcome.overturned for outcome in single]
+    np.testing.assert_allclose(result.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in single], rtol=1e-9)
 
 
 def test_rock_many_in_threads_keeps_order():
     """More runs than a thread takes at once come back as they were asked for, and progress reaches the end."""
-    told = []
+    collected = []
     rockers = [rock_params(BLOCKS[i % len(BLOCKS)], MOTION) for i in range(100)]
-    found = parallel_verdicts(rockers, MOTION, rockers[0].gains(), progress=lambda done, runs: told.append((done, runs)))
+    result = parallel_verdicts(rockers, MOTION, rockers[0].gains(), progress=lambda completed, runs: collected.append((completed, runs)))
     first = rock_verdicts(rockers[: len(BLOCKS)], MOTION, rockers[0].gains())
     for i in range(100):
-        assert found.max_rotation_ratio[i] == first.max_rotation_ratio[i % len(BLOCKS)]
-    assert told[-1] == (100, 100) and [done for done, _ in told] == sorted(done for done, _ in told)
+        assert result.max_rotation_ratio[i] == first.max_rotation_ratio[i % len(BLOCKS)]
+    assert collected[-1] == (100, 100) and [done for done, _ in collected] == sorted(done for done, _ in collected)
 
 
 @pytest.mark.parametrize("azimuth", [0.0, 37.0, 90.0, 200.0])
@@ -72,11 +72,11 @@ def test_gains_rotate_the_motion(azimuth):
     """Cos and -sin on the rows along and across are the record turned clockwise, also while the block is at rest."""
     angle = math.radians(azimuth)
     for options in ({}, {"vertical": True}):
-        one = rock_params(BLOCKS[1], MOTION, RockOptions(**options))
-        turned = rock_verdicts([one], MOTION, (math.cos(angle), -math.sin(angle), one.vertical))
-        there = solve_rock(one.block, motion_of(RECORD, f"{azimuth:g}"), **options).outcome
-        assert turned.overturned[0] == there.overturned
-        assert turned.max_rotation_ratio[0] == pytest.approx(there.max_rotation_ratio, rel=1e-9)
+        first = rock_params(BLOCKS[1], MOTION, RockOptions(**options))
+        rotated = rock_verdicts([first], MOTION, (math.cos(angle), -math.sin(angle), first.vertical))
+        second = solve_rock(first.block, motion_of(RECORD, f"{azimuth:g}"), **options).outcome
+        assert rotated.overturned[0] == second.overturned
+        assert rotated.max_rotation_ratio[0] == pytest.approx(second.max_rotation_ratio, rel=1e-9)
 
 
 def test_rock_many_rejects_invalid_input_like_single_run():

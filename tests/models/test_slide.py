@@ -93,6 +93,20 @@ def test_one_way_displacement_never_decreases():
     assert u[-1] > 0.1
 
 
+def test_channels_on_slope_equal_closed_form():
+    """Limits of static friction and ground velocity along a slope of 12 degrees under a ramp of both components."""
+    rate, rise, angle, mu, gravity = 1.5, 0.8, np.radians(12.0), 0.45, 9.80665
+    time = 0.02 * np.arange(101)
+    motion = Motion.from_arrays(rate * time, 0.02, vertical=rise * time)
+    response = solve_slide(sliding_base(mu, kappa=0.9, slope_deg=12.0), motion, gravity=gravity)
+    t = response.time
+    normal = (gravity + rise * t) * np.cos(angle) + rate * t * np.sin(angle)
+    pull = gravity * np.sin(angle)
+    np.testing.assert_allclose(response["lower_limit"], pull - mu * normal, rtol=1e-13)
+    np.testing.assert_allclose(response["upper_limit"], pull + mu * normal, rtol=1e-13)
+    np.testing.assert_allclose(response["ground_velocity"], 0.5 * t**2 * (rate * np.cos(angle) - rise * np.sin(angle)), atol=1e-14)
+
+
 def test_still_ground_causes_no_slip():
     """No shaking, no slip, on the steepest slope that friction holds too; every number is there."""
     still = Motion.from_arrays(np.zeros(10), 0.01)
@@ -109,19 +123,17 @@ def test_slope_steeper_than_kinetic_friction_slides_without_end():
     assert response.outcome.final_slip_m is None
     assert response.outcome.slides_at_end
     assert any("does not stop" in warning for warning in response.warnings)
-    assert sliding_base(0.3, kappa=0.5, slope_deg=12.0).never_stops
-    assert not sliding_base(0.3, kappa=0.9, slope_deg=12.0).never_stops
 
 
 def test_times_count_from_first_sample_of_record():
     """A motion that starts 20 s into its record reports times on the record's clock."""
     motion = shaking()
     later = Motion(motion.acceleration, motion.dt, start_s=20.0)
-    one, other = solve_slide(0.1, motion), solve_slide(0.1, later)
-    assert other.outcome.slip_start_s == pytest.approx(one.outcome.slip_start_s + 20.0, rel=1e-15)
-    assert other.outcome.max_slip_time_s == pytest.approx(one.outcome.max_slip_time_s + 20.0, rel=1e-15)
-    assert other.time[0] == other.phases[0].start_s == 20.0
-    assert slide_study(0.1, later)[0].slip_start_s == other.outcome.slip_start_s
+    first, second = solve_slide(0.1, motion), solve_slide(0.1, later)
+    assert second.outcome.slip_start_s == pytest.approx(first.outcome.slip_start_s + 20.0, rel=1e-15)
+    assert second.outcome.max_slip_time_s == pytest.approx(first.outcome.max_slip_time_s + 20.0, rel=1e-15)
+    assert second.time[0] == second.phases[0].start_s == 20.0
+    assert slide_study(0.1, later)[0].slip_start_s == second.outcome.slip_start_s
 
 
 def test_largest_slip_between_samples_is_found():
@@ -165,3 +177,13 @@ def test_solve_slide_rejects_non_finite_numbers(number):
     for how in ({"vertical": number}, {"gravity": number}):
         with pytest.raises(ParameterError):
             solve_slide(0.2, motion, **how)
+
+
+def test_flight_over_falling_base_lands_at_closed_form_time():
+    """With the base accelerated by -g (2 - 4 t/T) the gap is g t^2/2 - 2 g t^3/(3 T), which closes at 3 T/4."""
+    duration, samples = 0.4, 41
+    time = np.linspace(0.0, duration, samples)
+    motion = Motion.from_arrays(np.zeros(samples), time[1], vertical=-G * (2.0 - 4.0 * time / duration))
+    events = solve_slide(sliding_base(0.3), motion, vertical=1.0, gravity=G).events
+    (landing,) = [event.time_s for event in events if event.name == "landing"]
+    assert landing == pytest.approx(0.75 * duration, rel=1e-9)

@@ -9,7 +9,7 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.core.errors import SolverError
 from seisblock.models.jump import jump_many, solve_jump
-from seisblock.models.jump.describe import chain_warnings
+from seisblock.models.jump.segments import chain_warnings
 from seisblock.models.uplift import solve_uplift, uplift_many
 from seisblock.models.uplift.outcome import warnings
 from seisblock.records import Motion
@@ -27,16 +27,16 @@ def test_uplift_many_rows_equal_solve_uplift():
     motion = shaking(6.0, 0.01)
     motion = dataclasses.replace(motion, start_s=2.5)
     bodies = springs(6)
-    found = uplift_many(bodies, motion)
-    assert found.uplifts.sum() > 1 and (found.contact_changes > 50).any()
+    result = uplift_many(bodies, motion)
+    assert result.uplifts.sum() > 1 and (result.contact_changes > 50).any()
     for row, body in enumerate(bodies):
-        one = solve_uplift(body, motion)
-        for key, value in found.row_dict(row, motion.start_s).items():
-            assert value == getattr(one.outcome, key), key
-        assert warnings(motion, found, row) == one.warnings
-        assert tuple(np.flatnonzero(found.first_corners[row]) + 1) == one.outcome.first_corners
+        first = solve_uplift(body, motion)
+        for key, value in result.row_dict(row, motion.start_s).items():
+            assert value == getattr(first.outcome, key), key
+        assert warnings(motion, result, row) == first.warnings
+        assert tuple(np.flatnonzero(result.first_corners[row]) + 1) == first.outcome.first_corners
         np.testing.assert_array_equal(
-            found.time_on_corners_s[row] / found.time_on_corners_s[row].sum(), list(one.outcome.share_on_corners.values())
+            result.time_on_corners_s[row] / result.time_on_corners_s[row].sum(), list(first.outcome.share_on_corners.values())
         )
 
 
@@ -45,10 +45,10 @@ def test_uplift_many_lifts_above_uplift_scale_only():
     (body,), motion = springs(1), shaking(6.0, 0.01)
     scale = solve_uplift(body, motion).outcome.uplift_scale
     factors = np.array([0.999, 1.001]) * scale
-    found = uplift_many([body], motion, gains=np.outer([*factors, 2.0], [1.0, 1.0, 1.0]))
-    assert found.uplifts.tolist() == [False, True, True]
+    result = uplift_many([body], motion, gains=np.outer([*factors, 2.0], [1.0, 1.0, 1.0]))
+    assert result.uplifts.tolist() == [False, True, True]
     twice = solve_uplift(body, Motion(2.0 * motion.acceleration, motion.dt)).outcome
-    assert found.row_dict(2, 0.0) == {key: getattr(twice, key) for key in found.row_dict(2, 0.0)}
+    assert result.row_dict(2, 0.0) == {key: getattr(twice, key) for key in result.row_dict(2, 0.0)}
 
 
 def layered_blocks(count, seed=5):
@@ -81,27 +81,27 @@ def test_jump_many_rows_equal_solve_jump(options, samples, fates):
     """Every scalar of the outcome, and every warning; of records that end in the middle of a chain, too, and of feet that jam."""
     blocks, contacts = layered_blocks(12)
     motion = push_and_noise(samples)
-    found = jump_many(blocks, motion, contacts=contacts, **options)
-    assert set(found.outcome_code.tolist()) == fates
+    result = jump_many(blocks, motion, contacts=contacts, **options)
+    assert set(result.outcome_code.tolist()) == fates
     for row, (block, contact) in enumerate(zip(blocks, contacts, strict=True)):
-        if found.jammed[row]:
+        if result.jammed[row]:
             with pytest.raises(SolverError, match="jams"):
                 solve_jump(block, motion, contact=contact, **options)
             continue
-        one = solve_jump(block, motion, contact=contact, **options)
-        for key, value in found.row_dict(row).items():
-            assert value == getattr(one.outcome, key), key
-        assert chain_warnings(motion, found.row_chains(row, motion.start_s), contact.mu) == one.warnings
+        first = solve_jump(block, motion, contact=contact, **options)
+        for key, value in result.row_dict(row).items():
+            assert value == getattr(first.outcome, key), key
+        assert chain_warnings(motion, result.row_chains(row, motion.start_s), contact.mu) == first.warnings
 
 
 def test_jump_many_rocks_above_threshold_factor_only():
     """It rocks above its threshold, and not below; a factor of two is exact."""
     (block,), (contact,) = layered_blocks(1)
     motion = shaking(10.0, 0.01, peaks=(9.0, 5.0, 3.0), seed=11)
-    alone = solve_jump(block, motion, contact=contact).outcome
-    limit = alone.rocking_threshold_m_s2 / np.abs(motion.horizontal).max()
-    found = jump_many([block], motion, contacts=[contact], factors=[0.999 * limit, 1.001 * limit, 1.0, 2.0])
-    assert (found.outcome_code > 0).tolist() == [False, True, True, True]
+    single = solve_jump(block, motion, contact=contact).outcome
+    limit = single.rocking_threshold_m_s2 / np.abs(motion.horizontal).max()
+    result = jump_many([block], motion, contacts=[contact], factors=[0.999 * limit, 1.001 * limit, 1.0, 2.0])
+    assert (result.outcome_code > 0).tolist() == [False, True, True, True]
     twice = solve_jump(block, Motion(2.0 * motion.acceleration, motion.dt), contact=contact).outcome
-    for row, one in ((2, alone), (3, twice)):
-        assert found.row_dict(row) == {key: getattr(one, key) for key in found.row_dict(row)}
+    for row, first in ((2, single), (3, twice)):
+        assert result.row_dict(row) == {key: getattr(first, key) for key in result.row_dict(row)}

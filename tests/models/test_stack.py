@@ -12,24 +12,25 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.core.errors import ParameterError, SolverError
+from seisblock.core.quaternions import inverse_rotation, rotate_vectors
 from seisblock.core.units import STANDARD_GRAVITY as G
-from seisblock.models.stack.outcome import MAX_CREATED_ENERGY, Track, inverse_rotation, rotate_vectors, tilt_angle, twist_angle
+from seisblock.models.stack.outcome import MAX_CREATED_ENERGY, Track, tilt_angle, twist_angle
 from seisblock.models.stack.solve import solve_stack as solve_stack_by
 from seisblock.records import Motion
 
 WIDTH = 0.24
 
 
-def solve_stack(body, motion, *, law="springs", points=5, **more):
+def solve_stack(body, motion, *, law="springs", points=5, **extra):
     """The paper's law, with its 5 x 5 points; rigid stones have a file of their own."""
-    return solve_stack_by(body, motion, law=law, points=points, **more)
+    return solve_stack_by(body, motion, law=law, points=points, **extra)
 
 
 STIFF = PileContact(stiffness=1e9)
 
 
-def block(ratio=3.0, **more):
-    return Pile("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **more)
+def block(ratio=3.0, **extra):
+    return Pile("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **extra)
 
 
 def slope(angle, dt=0.01):
@@ -93,13 +94,13 @@ def test_slow_tilt_overturns_at_critical_angle():
 def test_mirrored_motion_gives_mirrored_response(hertz):
     """Shaking to the other side moves every stone to the other side, to the last bit while they stand."""
     motion = sine(6.0, hertz, 3.0)
-    there = solve_stack(load_pile("wagata"), motion, stop_at_fall=True)
+    second = solve_stack(load_pile("wagata"), motion, stop_at_fall=True)
     back = solve_stack(load_pile("wagata"), Motion(-motion.acceleration, motion.dt), stop_at_fall=True)
-    assert there.outcome.overturned == back.outcome.overturned
-    for name in there.body.names:
-        np.testing.assert_array_equal(there[f"{name}_x"], -back[f"{name}_x"])
-        np.testing.assert_array_equal(there[f"{name}_z"], back[f"{name}_z"])
-        np.testing.assert_array_equal(there[f"{name}_tilt"], back[f"{name}_tilt"])
+    assert second.outcome.overturned == back.outcome.overturned
+    for name in second.body.names:
+        np.testing.assert_array_equal(second[f"{name}_x"], -back[f"{name}_x"])
+        np.testing.assert_array_equal(second[f"{name}_z"], back[f"{name}_z"])
+        np.testing.assert_array_equal(second[f"{name}_tilt"], back[f"{name}_tilt"])
 
 
 def test_quarter_turn_of_pile_and_motion_changes_nothing():
@@ -107,14 +108,14 @@ def test_quarter_turn_of_pile_and_motion_changes_nothing():
     stones = (PileStone("foot", 0.5, 0.5, 0.2), PileStone("head", WIDTH, WIDTH, 0.7, on="foot"))
     along = sine(5.0, 1.5, 3.0)
     across = Motion(along.acceleration[[1, 0, 2]], along.dt)
-    one, other = (solve_stack(Pile("two", stones), motion, stop_at_fall=True) for motion in (along, across))
-    assert one.outcome.overturned == other.outcome.overturned == ("head",)
-    np.testing.assert_allclose(one["head_x"], other["head_y"], atol=1e-9)
+    first, second = (solve_stack(Pile("two", stones), motion, stop_at_fall=True) for motion in (along, across))
+    assert first.outcome.overturned == second.outcome.overturned == ("head",)
+    np.testing.assert_allclose(first["head_x"], second["head_y"], atol=1e-9)
 
 
 @pytest.mark.parametrize("reinforced", [False, True])
 def test_dissipation_never_decreases_and_momentum_is_conserved(reinforced):
-    """What friction and dashpots have taken never falls, through rocking, falling and coming to rest; momentum is the impulse."""
+    """Dissipation by friction and dashpots never decreases, through rocking, falling and rest; momentum equals the impulse."""
     rng = np.random.default_rng(3)
     shaking = rng.normal(size=(3, 800)) * np.array([[6.0], [6.0], [3.0]]) * np.hanning(800)
     response = solve_stack(load_pile("wagata", reinforced=reinforced), Motion(np.cumsum(shaking, axis=1) * 0.2, 0.01))
@@ -187,9 +188,9 @@ def test_vertical_and_transverse_false_omit_those_motions():
     """Without them a run is that of the first row alone."""
     rng = np.random.default_rng(5)
     full = Motion(rng.normal(size=(3, 200)), 0.01)
-    alone = Motion.from_arrays(full.horizontal, 0.01)
+    single = Motion.from_arrays(full.horizontal, 0.01)
     left_out = solve_stack(block(), full, vertical=False, across=False)
-    np.testing.assert_array_equal(left_out["block_x"], solve_stack(block(), alone)["block_x"])
+    np.testing.assert_array_equal(left_out["block_x"], solve_stack(block(), single)["block_x"])
     assert not np.array_equal(solve_stack(block(), full)["block_x"], left_out["block_x"])
 
 
@@ -203,7 +204,7 @@ def test_halving_the_step_changes_rocking_by_less_than_1_percent():
 
 
 @pytest.mark.parametrize(
-    ("step", "said"),
+    ("step", "message"),
     [
         (0.01, "exceeds the stability limit of the pile"),
         (1e-12, "is unnecessarily small"),
@@ -211,9 +212,9 @@ def test_halving_the_step_changes_rocking_by_less_than_1_percent():
         (math.nan, "positive"),
     ],
 )
-def test_solve_stack_rejects_unstable_or_tiny_step(step, said):
+def test_solve_stack_rejects_unstable_or_tiny_step(step, message):
     """Beyond the stability of the stiffest contact, or so fine that the run would not end, it is an error that says what would do."""
-    with pytest.raises(ParameterError, match=said):
+    with pytest.raises(ParameterError, match=message):
         solve_stack(block(), sine(1.0, 1.0, 0.1), step=step)
 
 
@@ -221,14 +222,14 @@ def test_solve_stack_rejects_unstable_or_tiny_step(step, said):
 def test_slicing_a_spring_run_changes_no_bit(points, monkeypatch):
     """Slices of one step, or of a few, end with the same state, rows and books as one slice; progress tells how far it is."""
     motion, body = sine(6.0, 2.0, 1.0), load_pile("wagata")
-    whole = solve_stack(body, motion)
+    full = solve_stack(body, motion)
     monkeypatch.setattr("seisblock.models.stack.simulation.POINTS_PER_SLICE", points)
-    told = []
-    parts = solve_stack(body, motion, progress=lambda done, total: told.append((done, total)))
-    assert parts.outcome == whole.outcome
-    for one, other in zip(parts.channels, whole.channels, strict=True):
-        np.testing.assert_array_equal(one.values, other.values)
-    assert told == sorted(told) and told[-1] == (motion.samples - 1, motion.samples - 1)
+    collected = []
+    parts = solve_stack(body, motion, progress=lambda result, total: collected.append((result, total)))
+    assert parts.outcome == full.outcome
+    for first, second in zip(parts.channels, full.channels, strict=True):
+        np.testing.assert_array_equal(first.values, second.values)
+    assert collected == sorted(collected) and collected[-1] == (motion.samples - 1, motion.samples - 1)
 
 
 def test_run_that_creates_energy_raises(monkeypatch):

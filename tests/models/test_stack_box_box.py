@@ -16,7 +16,7 @@ from seisblock.models.stack.chamfered_faces import MAX_CHAMFERED_POINTS
 from seisblock.models.stack.hull_pairs import edges_cross, faces_overlap, gap_between
 from seisblock.models.stack.step import SCRATCH_ROWS
 
-FAR = 100.0
+DISTANT = 100.0
 
 
 def pair(share):
@@ -41,17 +41,17 @@ def relative_pose(turn, centre):
 
 def widest(pile, rel):
     axis = np.zeros(8)
-    return gap_between(rel, 1, 0, FAR, pile.layout, np.zeros((SCRATCH_ROWS, 18)), axis), axis
+    return gap_between(rel, 1, 0, DISTANT, pile.layout, np.zeros((SCRATCH_ROWS, 18)), axis), axis
 
 
 def contact_points(pile, rel, gap, axis):
     """Return where both stones may touch, and the gaps there."""
-    found, spare, work = np.zeros((MAX_CHAMFERED_POINTS, 18)), np.zeros((MAX_CHAMFERED_POINTS, 18)), np.zeros((SCRATCH_ROWS, 18))
+    result, spare, work = np.zeros((MAX_CHAMFERED_POINTS, 18)), np.zeros((MAX_CHAMFERED_POINTS, 18)), np.zeros((SCRATCH_ROWS, 18))
     if axis[KIND] >= EDGE_EDGE:
-        points = int(edges_cross(rel, 1, 0, pile.layout, axis, work, found[0]))
-        return found[:points, :3], np.full(points, gap)
-    points = faces_overlap(rel, 1, 0, pile.layout, axis, work, 0.0, found, spare)
-    return found[:points, :3], found[:points, 3]
+        points = int(edges_cross(rel, 1, 0, pile.layout, axis, work, result[0]))
+        return result[:points, :3], np.full(points, gap)
+    points = faces_overlap(rel, 1, 0, pile.layout, axis, work, 0.0, result, spare)
+    return result[:points, :3], result[:points, 3]
 
 
 def corners_of(pile, rel):
@@ -66,10 +66,14 @@ def random_poses(count, seed):
     return [relative_pose(turn, centre) for turn, centre in zip(turns, rng.uniform(-0.8, 0.8, (count, 3)), strict=True)]
 
 
-def hulls_intersect(one, other):
+def hulls_intersect(first, second):
     """Return whether the hulls of two sets of corners do, as weights of both that give one point."""
     sums = np.vstack(
-        [np.hstack([one.T, -other.T]), np.r_[np.ones(len(one)), np.zeros(len(other))], np.r_[np.zeros(len(one)), np.ones(len(other))]]
+        [
+            np.hstack([first.T, -second.T]),
+            np.r_[np.ones(len(first)), np.zeros(len(second))],
+            np.r_[np.zeros(len(first)), np.ones(len(second))],
+        ]
     )
     return linprog(np.zeros(sums.shape[1]), A_eq=sums, b_eq=[0, 0, 0, 1, 1]).status == 0
 
@@ -112,9 +116,9 @@ def test_gap_equals_corner_projections_along_axis(share):
 def test_separating_axis_sign_matches_linear_programme(share):
     """The sign of the widest gap is what a linear programme finds of common points."""
     pile = pair(share)
-    found = [(widest(pile, rel)[0] < 0.0, hulls_intersect(*corners_of(pile, rel))) for rel in random_poses(60, 2)]
-    assert all(overlapping == common for overlapping, common in found)
-    assert 10 < sum(common for _, common in found) < 50
+    result = [(widest(pile, rel)[0] < 0.0, hulls_intersect(*corners_of(pile, rel))) for rel in random_poses(60, 2)]
+    assert all(overlapping == common for overlapping, common in result)
+    assert 10 < sum(common for _, common in result) < 50
 
 
 @pytest.mark.parametrize("share", SHARES[1:])
@@ -149,8 +153,8 @@ def test_touching_boxes_have_contact_points_on_both_surfaces(share):
         if hulls_intersect(*corners_of(pile, rel)):
             assert len(touching)
         for y in touching:
-            own = rel[:9].reshape(3, 3).T @ (y - rel[9:12])
-            assert (distance_outside(face_planes(pile, 0), y), distance_outside(face_planes(pile, 1), own)) == pytest.approx(
+            body_value = rel[:9].reshape(3, 3).T @ (y - rel[9:12])
+            assert (distance_outside(face_planes(pile, 0), y), distance_outside(face_planes(pile, 1), body_value)) == pytest.approx(
                 (0.0, 0.0), abs=2e-5
             )
     assert kinds == {"partner", "carrier", "edges"}
@@ -200,5 +204,5 @@ def test_flat_boxes_have_contacts_at_corners_of_face_overlap(yaw, count):
     points, _ = contact_points(pile, rel, gap, axis)
     assert len(points) == count
     np.testing.assert_allclose(points[:, 2], 0.1, atol=1e-12)
-    far = 0.2 * math.sqrt(2.0) if count == 4 else 0.2 / math.cos(math.pi / 8)
-    np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), far, atol=2e-5)
+    distant = 0.2 * math.sqrt(2.0) if count == 4 else 0.2 / math.cos(math.pi / 8)
+    np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), distant, atol=2e-5)

@@ -36,12 +36,12 @@ from tests.models.test_stack_rigid import lean_of, restitution_at_impact, sine_c
 R = RADIUS
 
 
-def drum(height, diameter=2.0 * R, name="block", **more):
-    return PileStone(name, diameter, diameter, height, shape="round", **more)
+def drum(height, diameter=2.0 * R, name="block", **extra):
+    return PileStone(name, diameter, diameter, height, shape="round", **extra)
 
 
-def slab(height, side=2.0 * R, name="block", **more):
-    return PileStone(name, side, side, height, **more)
+def slab(height, side=2.0 * R, name="block", **extra):
+    return PileStone(name, side, side, height, **extra)
 
 
 @pytest.mark.parametrize(("height", "lean"), RIM_CASES)
@@ -59,16 +59,16 @@ def test_thin_spinning_disk_follows_moffatt():
 
 def test_drum_rolling_through_upright_conserves_energy():
     """It leans as far on the other side, which is a case of ``validate``: a drum as high as wide turns by 230 degrees, no half turn."""
-    turned, leans, _ = rock_and_roll(drum(2.0 * R))
-    assert turned == pytest.approx(math.radians(230.0), abs=0.02)
+    rotated, leans, _ = rock_and_roll(drum(2.0 * R))
+    assert rotated == pytest.approx(math.radians(230.0), abs=0.02)
     assert leans == pytest.approx(1.0, abs=5e-3)
 
 
 @pytest.mark.parametrize("step", [1e-3, 2.5e-3])
 def test_drum_rolling_through_upright_is_independent_of_step(step):
     """It rolls across within a tenth of a step: steps end where the lowest point of its rim has wandered far."""
-    turned, leans, _ = rock_and_roll(drum(2.0 * R), 4e-3, step)
-    assert 2.0 * math.pi - turned == pytest.approx(math.radians(230.9), abs=0.05)  # seen half way, it turned the short way round
+    rotated, leans, _ = rock_and_roll(drum(2.0 * R), 4e-3, step)
+    assert 2.0 * math.pi - rotated == pytest.approx(math.radians(230.9), abs=0.05)  # seen half way, it turned the short way round
     assert leans == pytest.approx(1.0, abs=0.03)
 
 
@@ -85,7 +85,7 @@ def test_wobbling_drum_gains_no_energy():
 
 
 def test_drum_rolling_downhill_conserves_energy():
-    """What it gains is a case of ``validate``."""
+    """A drum that rolls downhill conserves energy; its acceleration is a case of ``validate``."""
     _, end = roll_down_slope()
     assert end.output.energy_ledger[DISSIPATED] < 1e-6 * end.output.energy_ledger[0]
 
@@ -113,19 +113,19 @@ def test_drum_in_plane_rocks_like_planar_block():
     """Let go from 0.6 alpha, each amplitude follows from the last by energy and the restitution of its block, within 1 %."""
     stone = drum(0.96, 0.24)
     block = planar_block(stone)
-    alpha, kept = block.slenderness, block.restitution
+    alpha, remaining = block.slenderness, block.restitution
 
     def height(lean):
         return math.cos(alpha - lean) - math.cos(alpha)
 
     response = solve_stack(Pile("one", (stone,), mu=5.0), still_ground(3.0), tilts={"block": 0.6 * alpha})
-    assert restitution_at_impact(response, alpha, 0.6 * alpha) == pytest.approx(kept, abs=2e-3)
-    assert effective_base(response).restitution == pytest.approx(kept, abs=1e-12)
+    assert restitution_at_impact(response, alpha, 0.6 * alpha) == pytest.approx(remaining, abs=2e-3)
+    assert effective_base(response).restitution == pytest.approx(remaining, abs=1e-12)
     lean = lean_of(response)
     crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:6]
     amplitudes = [np.abs(lean[a + 1 : b + 1]).max() for a, b in pairwise(crossings)]
     for before, after in pairwise(amplitudes):
-        assert height(after) == pytest.approx(kept**2 * height(before), rel=1e-2)
+        assert height(after) == pytest.approx(remaining**2 * height(before), rel=1e-2)
 
 
 @pytest.mark.parametrize("worn", [0.0, 0.1])
@@ -145,8 +145,8 @@ def test_stone_on_exact_base_overturns_at_respond_threshold(make, worn):
     below, above = (solve_stack(pile, sine_cycle(part * high, 1.5), stop_at_fall=True) for part in (0.98, 1.02))
     assert not below.outcome.overturned_any
     assert above.outcome.overturned_any
-    found = effective_base(above)
-    assert (found.width_ratio, found.restitution) == (pytest.approx(1.0 - 2.0 * worn), pytest.approx(plane.restitution, abs=1e-12))
+    result = effective_base(above)
+    assert (result.width_ratio, result.restitution) == (pytest.approx(1.0 - 2.0 * worn), pytest.approx(plane.restitution, abs=1e-12))
 
 
 @pytest.mark.parametrize("law", ["rigid", "springs"])
@@ -154,8 +154,8 @@ def test_worn_stone_pivots_at_overhang_of_wider_stone(law):
     """It turns about its own worn edges and the sharp one of the stone below; on springs it fell to the side that was worn by neither."""
     lower, upper = PileStone("lower", 0.5, 0.5, 0.2), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.2, 0.0), on="lower")
     pile = Pile("over", (lower, upper), mu=2.0).with_wear(0.2)
-    found = solve_stack(pile, sine_cycle(1.0, 1.7), law=law)
-    assert not found.outcome.overturned_any
+    result = solve_stack(pile, sine_cycle(1.0, 1.7), law=law)
+    assert not result.outcome.overturned_any
     points = pile_arrays(pile, PileContact(), 2).grids[1]
     ends = points[points[:, :, 2] > 0.0][:, 0]
     assert (ends.min(), ends.max()) == (pytest.approx(-0.06), pytest.approx(0.05))  # from the middle of the upper stone
@@ -208,14 +208,14 @@ def test_bundled_column_stands_at_rest_and_reports_fall_direction():
 
 
 @pytest.mark.parametrize(
-    ("stone", "more", "said"),
+    ("stone", "extra", "message"),
     [
         (drum(0.4), {"law": "springs"}, "is a cylinder, which requires rigid contact"),
         (drum(0.4), {"points": 5}, "is a cylinder, which requires rigid contact"),
         (slab(0.4), {"points": 5, "inset": 0.1}, "edge wear requires contact at the edges"),
     ],
 )
-def test_solve_stack_rejects_unsupported_options_of_round_and_worn_bases(stone, more, said):
-    pile = Pile("one", (stone,)).with_wear(more.pop("inset", 0.0))
-    with pytest.raises(ParameterError, match=said):
-        solve_stack(pile, still_ground(0.1), **more)
+def test_solve_stack_rejects_unsupported_options_of_round_and_worn_bases(stone, extra, message):
+    pile = Pile("one", (stone,)).with_wear(extra.pop("inset", 0.0))
+    with pytest.raises(ParameterError, match=message):
+        solve_stack(pile, still_ground(0.1), **extra)

@@ -22,14 +22,14 @@ SIDE_BY_SIDE = 2.0 * RADIUS * math.sqrt(0.5)
 """Distance of the axes of two that touch as the square prisms inside them."""
 
 
-def roll_against(along, turned, restitution):
+def roll_against(along, rotated, restitution):
     """Let a short drum slide against a long one, both lying along x: how far along its centre lies, and by what angle it is turned."""
     stones = (
         PileStone("low", 2.0 * RADIUS, 2.0 * RADIUS, LONG, shape="round"),
         PileStone("high", 2.0 * RADIUS, 2.0 * RADIUS, SHORT, on="low", shape="round"),
     )
     pile = pile_arrays(Pile("two", stones, mu=0.5), None, EDGES, restitution)
-    places = [((0.0, 0.0, RADIUS), 0.0), ((along, 2.4 * RADIUS, RADIUS), turned)]
+    places = [((0.0, 0.0, RADIUS), 0.0), ((along, 2.4 * RADIUS, RADIUS), rotated)]
     for body, (centre, turn) in zip(pile.bodies[:2], places, strict=True):
         lies = Rotation.from_rotvec([0.0, 0.0, turn]) * Rotation.from_matrix(tilted_axes(math.pi / 2.0))
         body[X : X + 3], body[V : V + 6] = centre, 0.0
@@ -39,10 +39,10 @@ def roll_against(along, turned, restitution):
 
 
 @pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.1, 0.9])
-@pytest.mark.parametrize(("along", "turned"), [(0.42, 0.0), (0.45, 0.0), (0.49, 0.0), (0.42, 0.1), (0.44, -0.1)])
-def test_drum_sliding_past_end_of_lying_drum_contacts_its_side(along, turned, restitution):
+@pytest.mark.parametrize(("along", "rotated"), [(0.42, 0.0), (0.45, 0.0), (0.49, 0.0), (0.42, 0.1), (0.44, -0.1)])
+def test_drum_sliding_past_end_of_lying_drum_contacts_its_side(along, rotated, restitution):
     """As long as its centre was beyond the other's end it was met only face on face: it sank into its side, and was pushed out of it."""
-    end, mass = roll_against(along, turned, restitution)
+    end, mass = roll_against(along, rotated, restitution)
     low, high = end.track.centres[:, 0], end.track.centres[:, 1]
     assert (high - low)[:, 1].min() > SIDE_BY_SIDE
     assert low[-1, 1] < -RADIUS

@@ -71,6 +71,7 @@ def test_slab_rocking_on_bevels_lands_on_all_corners(push):
     assert created_energy(pile, outcome) < 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", ["round", "rectangular"])
 def test_worn_stones_leaning_on_drums_gain_no_energy(shape):
     """Worn faces alone were met, also where outer rims and edges lie lower: 1 in 4 drums gained up to 1.7 %, and 3 in 4 squares 3.9 %."""

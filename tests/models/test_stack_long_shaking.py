@@ -12,8 +12,8 @@ SECONDS, DT = 150.0, 0.01
 
 def noise(seed, factor=1.0, seconds=SECONDS):
     """Return minutes of noise between 0.3 and 8 Hz along three axes, m/s^2, or the first seconds of it."""
-    dice, count = np.random.default_rng(seed), round(SECONDS / DT)
-    spectrum = np.fft.rfft(dice.normal(size=(3, count)))
+    rng, count = np.random.default_rng(seed), round(SECONDS / DT)
+    spectrum = np.fft.rfft(rng.normal(size=(3, count)))
     hertz = np.fft.rfftfreq(count, DT)
     rows = np.fft.irfft(spectrum * ((hertz > 0.3) & (hertz < 8.0)), count)
     rows = factor * np.array([[6.0], [5.0], [2.4]]) * rows / np.abs(rows).max(axis=1, keepdims=True)

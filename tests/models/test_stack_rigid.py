@@ -29,8 +29,8 @@ WIDTH = 0.2424
 FINE = 5e-4
 
 
-def block(ratio=3.0, **more):
-    return Pile("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **more)
+def block(ratio=3.0, **extra):
+    return Pile("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **extra)
 
 
 def still_ground(seconds, dt=0.002):
@@ -71,8 +71,8 @@ def test_free_rocking_of_rigid_stone_follows_housner(ratio, start, step):
     np.testing.assert_allclose(time[crossings] + part * np.diff(time)[crossings], times, rtol=2e-3)
     for (a, b), amplitude in zip(pairwise(crossings), amplitudes[1:], strict=False):
         top = a + 1 + int(np.argmax(np.abs(lean[a + 1 : b + 1])))
-        near = slice(top - 2, top + 3)
-        curve = np.polynomial.Polynomial.fit(time[near], lean[near], 2)
+        nearby = slice(top - 2, top + 3)
+        curve = np.polynomial.Polynomial.fit(time[nearby], lean[nearby], 2)
         assert abs(curve(curve.deriv().roots()[0])) == pytest.approx(amplitude, rel=1e-3)
 
 
@@ -93,12 +93,12 @@ def test_rigid_stone_overturns_at_respond_threshold(hertz, limit):
     assert solve_stack(pile, sine_cycle(1.003 * high, hertz), stop_at_fall=True).outcome.overturned_any
 
 
-@pytest.mark.parametrize("given", [None, 0.7, 0.95])
-def test_impact_has_housner_or_given_restitution(given):
+@pytest.mark.parametrize("arguments", [None, 0.7, 0.95])
+def test_impact_has_housner_or_given_restitution(arguments):
     """Without a restitution Housner's ratio is left of the turning; with one, that, whether more or less than Housner's."""
     alpha = math.atan(0.25)
-    response = solve_stack(block(4.0, mu=5.0), still_ground(1.2), tilts={"block": 0.6 * alpha}, restitution=given, step=FINE)
-    expected = 1.0 - 1.5 * math.sin(alpha) ** 2 if given is None else given
+    response = solve_stack(block(4.0, mu=5.0), still_ground(1.2), tilts={"block": 0.6 * alpha}, restitution=arguments, step=FINE)
+    expected = 1.0 - 1.5 * math.sin(alpha) ** 2 if arguments is None else arguments
     assert restitution_at_impact(response, alpha, 0.6 * alpha) == pytest.approx(expected, abs=0.008)
     assert effective_base(response).restitution == pytest.approx(expected, abs=1e-12)
     assert response.outcome.created_j < 1e-3 * response.outcome.lost_j
@@ -108,13 +108,13 @@ def test_impact_has_housner_or_given_restitution(given):
 def test_contact_grid_uses_reported_base_width_and_restitution(points, contact):
     """The stone falls from beyond the lean that the narrower base says, and an impact leaves of it what the answer says."""
     stone = block(3.0).stones[0]
-    found = compute_effective_base(stone, points, contact, None, G)
-    assert (found.stone, found.width_ratio) == ("block", 0.8)
-    assert found.restitution > found.housner_ratio + 0.05
+    result = compute_effective_base(stone, points, contact, None, G)
+    assert (result.stone, result.width_ratio) == ("block", 0.8)
+    assert result.restitution > result.housner_ratio + 0.05
     alpha = math.atan(0.8 / 3.0)
     tall = block(3.0, mu=5.0)
-    seen = solve_stack(tall, still_ground(1.2), points=points, contact=contact, tilts={"block": 0.6 * alpha})
-    assert restitution_at_impact(seen, alpha, 0.6 * alpha) == pytest.approx(found.restitution, abs=0.02)
+    solution = solve_stack(tall, still_ground(1.2), points=points, contact=contact, tilts={"block": 0.6 * alpha})
+    assert restitution_at_impact(solution, alpha, 0.6 * alpha) == pytest.approx(result.restitution, abs=0.02)
     assert solve_stack(tall, still_ground(3.0), points=points, contact=contact, tilts={"block": 1.04 * alpha}).outcome.overturned_any
 
 
@@ -134,8 +134,8 @@ def test_rigid_block_on_slope_slides_with_kinetic_friction(elsewhere):
     angle = math.atan(1.1 * static)
     above = solve_stack(flat, slope(angle), mu_kinetic=kinetic)
     inside = (above.time > 1.2) & (above.time < seconds - 0.1)
-    found = 2.0 * np.polynomial.Polynomial.fit(above.time[inside], above["block_x"][inside], 2).convert().coef[2]
-    assert found == pytest.approx(-G * (math.sin(angle) - kinetic * math.cos(angle)), rel=1e-3)
+    result = 2.0 * np.polynomial.Polynomial.fit(above.time[inside], above["block_x"][inside], 2).convert().coef[2]
+    assert result == pytest.approx(-G * (math.sin(angle) - kinetic * math.cos(angle)), rel=1e-3)
 
 
 @pytest.mark.parametrize("name", ["wagata", "lantern"])
@@ -162,10 +162,10 @@ def test_sleeping_stones_carry_load_or_wake():
     stones = (PileStone("foot", 0.5, 0.5, 0.25), PileStone("middle", 0.36, 0.36, 0.25, on="foot"))
     head = PileStone("block", WIDTH, WIDTH, 3.0 * WIDTH)
     motion = sine_cycle(3.9, 2.0)
-    alone = solve_stack(Pile("alone", (head,), mu=0.8), motion).outcome
+    single = solve_stack(Pile("alone", (head,), mu=0.8), motion).outcome
     above = solve_stack(Pile("above", (*stones, replace(head, on="middle")), mu=0.8), motion).outcome
-    assert alone.max_tilt_rad["block"] > 0.01
-    assert above.max_tilt_rad["block"] == pytest.approx(alone.max_tilt_rad["block"], rel=0.01)
+    assert single.max_tilt_rad["block"] > 0.01
+    assert above.max_tilt_rad["block"] == pytest.approx(single.max_tilt_rad["block"], rel=0.01)
     assert above.max_tilt_rad["middle"] < 1e-5
     narrow = PileStone("middle", 0.1, 0.36, 0.25, on="foot")
     assert (
@@ -178,21 +178,21 @@ def test_quarter_turn_of_rigid_pile_and_motion_changes_little():
     stones = (PileStone("foot", 0.5, 0.5, 0.2), PileStone("head", WIDTH, WIDTH, 0.7, on="foot"))
     along = sine_cycle(4.0, 1.5)
     across = Motion(along.acceleration[[1, 0, 2]], along.dt)
-    one, other = (solve_stack(Pile("two", stones), motion, stop_at_fall=True) for motion in (along, across))
-    assert one.outcome.overturned == other.outcome.overturned
-    assert one.outcome.max_tilt_rad["head"] == pytest.approx(other.outcome.max_tilt_rad["head"], rel=5e-3)
+    first, second = (solve_stack(Pile("two", stones), motion, stop_at_fall=True) for motion in (along, across))
+    assert first.outcome.overturned == second.outcome.overturned
+    assert first.outcome.max_tilt_rad["head"] == pytest.approx(second.outcome.max_tilt_rad["head"], rel=5e-3)
 
 
 def test_slicing_a_rigid_run_changes_no_bit(monkeypatch):
     """Slices of a few steps end with the same state and books as one slice."""
     motion, body = sine_cycle(6.0, 2.0), load_pile("wagata")
-    whole = solve_stack(body, motion)
+    full = solve_stack(body, motion)
     monkeypatch.setattr("seisblock.models.stack.simulation.POINTS_PER_SLICE", 1000)
-    assert solve_stack(body, motion).outcome == whole.outcome
+    assert solve_stack(body, motion).outcome == full.outcome
 
 
 @pytest.mark.parametrize(
-    ("more", "said"),
+    ("extra", "message"),
     [
         ({"law": "jelly"}, "'rigid' or 'springs', found 'jelly'"),
         ({"law": "rigid", "contact": PileContact()}, "has no effect with rigid contact"),
@@ -204,10 +204,10 @@ def test_slicing_a_rigid_run_changes_no_bit(monkeypatch):
         ({"step": 1e-9}, "is out of range for the pile"),
     ],
 )
-def test_solve_stack_rejects_conflicting_options(more, said):
+def test_solve_stack_rejects_conflicting_options(extra, message):
     """Each in one sentence."""
-    with pytest.raises(ParameterError, match=said):
-        solve_stack(block(), sine_cycle(1.0, 1.0), **more)
+    with pytest.raises(ParameterError, match=message):
+        solve_stack(block(), sine_cycle(1.0, 1.0), **extra)
 
 
 def test_contact_springs_reject_kinetic_friction():
@@ -239,36 +239,36 @@ def test_random_rigid_piles_create_no_energy():
 @pytest.mark.parametrize(("component", "factor"), [("NS", 1.5), ("EW", 1.2), ("EW", 1.5)])
 def test_stone_falling_off_wide_base_creates_no_energy(component, factor):
     """Falls that rigid stones left to springs, with a warning: they are followed to the end now."""
-    found = solve_stack(STONES, motion(component, factor))
-    assert (found.options.law, found.warnings) == ("rigid", ())
-    assert found.outcome.overturned == ("sao",)
-    assert found.outcome.created_j < 5e-4 * found.outcome.lost_j
+    result = solve_stack(STONES, motion(component, factor))
+    assert (result.options.law, result.warnings) == ("rigid", ())
+    assert result.outcome.overturned == ("sao",)
+    assert result.outcome.created_j < 5e-4 * result.outcome.lost_j
 
 
 def test_created_energy_falls_back_to_finer_steps_then_springs(monkeypatch):
     """Should a run create energy, no verdict is lost, and the warning says who gave it; rigid stones alone refuse at last."""
     refused = []
 
-    def judged(pile, end, **more):
-        if not pile.constants[:, POINT].any() and more["step"] > refused[0]:
+    def judged(pile, end, **further):
+        if not pile.constants[:, POINT].any() and further["step"] > refused[0]:
             raise SolverError("they created energy")
-        return stack_outcome(pile, end, **more)
+        return stack_outcome(pile, end, **further)
 
     monkeypatch.setattr("seisblock.models.stack.solve.stack_outcome", judged)
     refused[:] = [1e-3]
-    for more in ({}, {"law": "rigid"}, {"restitution": 0.5}, {"mu_kinetic": 0.1}):
-        found = solve_stack(block(), sine_cycle(3.0, 1.0), **more)
-        assert found.options.law == "rigid"
-        assert found.outcome.step_s < 1e-3
-        assert "solved with a finer step of" in found.warnings[0]
+    for extra in ({}, {"law": "rigid"}, {"restitution": 0.5}, {"mu_kinetic": 0.1}):
+        result = solve_stack(block(), sine_cycle(3.0, 1.0), **extra)
+        assert result.options.law == "rigid"
+        assert result.outcome.step_s < 1e-3
+        assert "solved with a finer step of" in result.warnings[0]
     with pytest.raises(SolverError, match="created"):
         solve_stack(block(), sine_cycle(3.0, 1.0), step=2e-3)
     refused[:] = [0.0]
     with pytest.raises(SolverError, match="created"):
         solve_stack(block(), sine_cycle(3.0, 1.0), law="rigid")
-    found = solve_stack(block(), sine_cycle(3.0, 1.0))
-    assert found.options.law == "springs"
-    assert "solved with contact springs, since rigid contact failed" in found.warnings[0]
+    result = solve_stack(block(), sine_cycle(3.0, 1.0))
+    assert result.options.law == "springs"
+    assert "solved with contact springs, since rigid contact failed" in result.warnings[0]
 
 
 def test_rotation_of_support_is_not_counted_as_slip():
@@ -278,11 +278,11 @@ def test_rotation_of_support_is_not_counted_as_slip():
         Pile("gate", (*posts, PileStone("beam", 1.7, 0.25, 0.2, on="left", offset=(0.6, 0.0)))), None, 2, PLASTIC_RESTITUTION
     )
     turn, along = 0.4, np.array([0.02, -0.01, 0.0])
-    whole, half = (np.array([math.cos(angle / 2.0), 0.0, 0.0, math.sin(angle / 2.0)]) for angle in (turn, 0.5 * turn))
+    full, half = (np.array([math.cos(angle / 2.0), 0.0, 0.0, math.sin(angle / 2.0)]) for angle in (turn, 0.5 * turn))
     start = np.array(pile.body.centres())
     joint = np.array([-0.6, 0.0, 0.9])
     beam = joint + along + rotate_vectors(half, start[2] - joint)
-    centres, quaternions = np.array([start, [start[0], start[1], beam]]), np.array([[[1.0, 0.0, 0.0, 0.0]] * 3, [whole, whole, half]])
+    centres, quaternions = np.array([start, [start[0], start[1], beam]]), np.array([[[1.0, 0.0, 0.0, 0.0]] * 3, [full, full, half]])
     track = Track(np.arange(2.0), centres, quaternions)
     slips = {channel.name: channel.values for channel in stone_channels(pile, track) if channel.name.endswith("_slip")}
     assert slips["beam_slip"] == pytest.approx([0.0, float(np.hypot(*along[:2]))], abs=1e-12)

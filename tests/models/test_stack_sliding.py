@@ -1,4 +1,4 @@
-"""What slides in a pile follows its events at the default step."""
+"""Sliding stones of a pile follow their events at the default step."""
 
 import math
 from itertools import pairwise
@@ -23,9 +23,9 @@ def sine(pga, hertz, cycles, rest):
 
 def slide(shaking, kinetic, fine=500):
     """Return the slip of a slab, m, by the events of its motion: it clings, slides with kinetic friction, and clings where it stops."""
-    slip, speed, side, h, found = 0.0, 0.0, 0.0, DT / fine, []
+    slip, speed, side, h, result = 0.0, 0.0, 0.0, DT / fine, []
     for left, right in pairwise(shaking):
-        found.append(slip)
+        result.append(slip)
         for k in range(fine):
             ground = left + (right - left) * (k + 0.5) / fine
             if side == 0.0:
@@ -36,7 +36,7 @@ def slide(shaking, kinetic, fine=500):
             slip, speed = slip + h * speed + 0.5 * h * h * rate, speed + h * rate
             if speed * side <= 0.0:
                 speed, side = 0.0, 0.0
-    return np.array([*found, slip])
+    return np.array([*result, slip])
 
 
 @pytest.mark.parametrize("kinetic", [0.31, STATIC])
@@ -48,27 +48,27 @@ def test_sliding_slab_matches_event_solution(pga, hertz, kinetic):
     """
     shaking = sine(pga, hertz, 3.0, 0.5)
     slab = Pile("slab", (PileStone("slab", 1.0, 1.0, 0.1),), mu=STATIC)
-    found = solve_stack(slab, Motion.from_arrays(shaking, DT), mu_kinetic=kinetic)
+    result = solve_stack(slab, Motion.from_arrays(shaking, DT), mu_kinetic=kinetic)
     expected = slide(shaking, kinetic)
-    kept = np.round(found.time / DT).astype(int)
-    kept = kept[kept < len(shaking)]
+    remaining = np.round(result.time / DT).astype(int)
+    remaining = remaining[remaining < len(shaking)]
     assert np.abs(expected).max() > 0.005
-    np.testing.assert_allclose(found["slab_x"][: kept.size], expected[kept], atol=0.01 * np.abs(expected).max())
+    np.testing.assert_allclose(result["slab_x"][: remaining.size], expected[remaining], atol=0.01 * np.abs(expected).max())
 
 
 def slide_as_one_body(shaking, fine=200):
     """Return the way along and across of slabs with one friction in all joints, m, as one body: implicit steps, shorter than a pile's."""
-    way, speed, h, found = 0j, 0j, DT / fine, []
+    way, speed, h, result = 0j, 0j, DT / fine, []
     level, up = (shaking[0] + 1j * shaking[1]).tolist(), shaking[2].tolist()
     for left, right, low, high in zip(level, level[1:], up, up[1:], strict=False):
-        found.append(way)
+        result.append(way)
         for k in range(fine):
             part = (k + 0.5) / fine
             free = speed - h * (left + (right - left) * part)
             brake = h * STATIC * (G + low + (high - low) * part)
             speed = free * max(1.0 - brake / max(abs(free), 1e-30), 0.0)
             way += h * speed
-    ways = np.array([*found, way])
+    ways = np.array([*result, way])
     return np.array([ways.real, ways.imag]).T
 
 
@@ -88,14 +88,14 @@ def test_slabs_with_equal_friction_slide_as_one_body(number, pga, hertz, across,
     sizes = [1.5, 1.2, 0.8]
     names = ["base", "middle", "top"][:number]
     slabs = [PileStone(name, size, size, 0.1, on=on) for name, size, on in zip(names, sizes, ["ground", *names], strict=False)]
-    found = solve_stack(Pile("slabs", tuple(slabs), mu=STATIC), Motion(shaking, DT))
+    result = solve_stack(Pile("slabs", tuple(slabs), mu=STATIC), Motion(shaking, DT))
     expected = slide_as_one_body(shaking)
-    kept = np.round(found.time / DT).astype(int)
-    kept = kept[kept < len(time)]
-    most = np.hypot(*expected.T).max()
+    remaining = np.round(result.time / DT).astype(int)
+    remaining = remaining[remaining < len(time)]
+    maximum = np.hypot(*expected.T).max()
     for name in names:
         for k, axis in enumerate("xy"):
-            np.testing.assert_allclose(found[f"{name}_{axis}"][: kept.size], expected[kept, k], atol=0.01 * most)
+            np.testing.assert_allclose(result[f"{name}_{axis}"][: remaining.size], expected[remaining, k], atol=0.01 * maximum)
 
 
 def test_turning_and_sliding_slab_matches_fine_steps():
@@ -103,17 +103,17 @@ def test_turning_and_sliding_slab_matches_fine_steps():
 
     Where the turn of a slip was not followed within a step, half of such slabs were within 3 %, and nine of ten within 13 %.
     """
-    dice, missed = np.random.default_rng(12), []
+    rng, missed = np.random.default_rng(12), []
     time = np.arange(0.0, 5.0, DT)
     for _ in range(24):
-        size, pga, across = dice.uniform(0.5, 4.0), STATIC * G * dice.uniform(1.2, 3.0), dice.uniform(0.3, 1.0)
-        one, other = 2.0 * math.pi * dice.uniform(0.6, 6.0, 2)
-        rows = pga * np.array([np.sin(one * time), across * np.sin(other * time + 1.0), np.zeros(time.size)]) * np.minimum(time, 1.0)
-        found = solve_stack(Pile("slab", (PileStone("slab", size, size, 0.1),), mu=STATIC), Motion(rows, DT))
+        size, pga, across = rng.uniform(0.5, 4.0), STATIC * G * rng.uniform(1.2, 3.0), rng.uniform(0.3, 1.0)
+        first, second = 2.0 * math.pi * rng.uniform(0.6, 6.0, 2)
+        rows = pga * np.array([np.sin(first * time), across * np.sin(second * time + 1.0), np.zeros(time.size)]) * np.minimum(time, 1.0)
+        result = solve_stack(Pile("slab", (PileStone("slab", size, size, 0.1),), mu=STATIC), Motion(rows, DT))
         expected = slide_as_one_body(rows, fine=100)
-        kept = np.round(found.time / DT).astype(int)
-        kept = kept[kept < len(time)]
-        way = np.array([found["slab_x"], found["slab_y"]]).T[: kept.size]
-        missed.append(np.hypot(*(way - expected[kept]).T).max() / np.hypot(*expected.T).max())
+        remaining = np.round(result.time / DT).astype(int)
+        remaining = remaining[remaining < len(time)]
+        way = np.array([result["slab_x"], result["slab_y"]]).T[: remaining.size]
+        missed.append(np.hypot(*(way - expected[remaining]).T).max() / np.hypot(*expected.T).max())
     assert np.median(missed) < 0.01
     assert np.quantile(missed, 0.9) < 0.03

@@ -27,7 +27,7 @@ def test_rocking_just_above_uplift_matches_respond_at_default_step(slender, hert
     """Within 5 %: flights of some steps, whose impacts are slow because little draws a slender stone back, had ended all of it."""
     motion = cycles(slender, hertz, 1.1)
     stone = PileStone("stone", WIDTH, WIDTH, slender * WIDTH)
-    found = solve_stack(Pile("one", (stone,), mu=MU), motion).outcome
+    result = solve_stack(Pile("one", (stone,), mu=MU), motion).outcome
     expected = solve_respond(Block(WIDTH, slender * WIDTH), motion, mu=MU).outcome
     assert expected.max_rotation_ratio > 0.02
-    assert found.max_tilt_rad["stone"] == pytest.approx(expected.max_rotation_rad, rel=0.05)
+    assert result.max_tilt_rad["stone"] == pytest.approx(expected.max_rotation_rad, rel=0.05)

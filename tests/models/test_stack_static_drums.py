@@ -25,13 +25,13 @@ def push_and_hold(acceleration, azimuth):
 @pytest.mark.parametrize("drums", [1, 2])
 def test_drums_pushed_below_threshold_gain_no_energy(drums, mu):
     """Great friction lifts what it should hold: sweeps that did not end gave one such pair in four up to 1e53 m/s."""
-    dice = np.random.default_rng(round(10 * mu) + drums)
+    rng = np.random.default_rng(round(10 * mu) + drums)
     for _ in range(12):
-        diameter, slender = dice.uniform(0.2, 1.0), dice.uniform(1.6, 5.0)
+        diameter, slender = rng.uniform(0.2, 1.0), rng.uniform(1.6, 5.0)
         height = slender * diameter / drums
         stones = [PileStone(f"d{i}", diameter, diameter, height, shape="round", on=f"d{i - 1}" if i else "ground") for i in range(drums)]
-        push = dice.uniform(0.9, 0.98) / slender * G
-        pile, motion = Pile("drums", tuple(stones), mu=mu), push_and_hold(push, dice.uniform(0.0, 6.28))
+        push = rng.uniform(0.9, 0.98) / slender * G
+        pile, motion = Pile("drums", tuple(stones), mu=mu), push_and_hold(push, rng.uniform(0.0, 6.28))
         for stop in (True, False):
             outcome = solve_stack(pile, motion, law="rigid", stop_at_fall=stop).outcome
             weight = sum(stone.mass for stone in stones) * G * slender * diameter
@@ -39,25 +39,25 @@ def test_drums_pushed_below_threshold_gain_no_energy(drums, mu):
             assert not outcome.overturned_any
 
 
-def noise(dice, peak, seconds=12.0, dt=0.01):
+def noise(rng, peak, seconds=12.0, dt=0.01):
     """Return noise about 1.5 Hz along three axes, m/s^2, the vertical a third of it."""
     count = round(seconds / dt)
     hertz = np.fft.rfftfreq(count, dt)
-    rows = np.fft.irfft(np.fft.rfft(dice.normal(size=(3, count))) * (hertz > 0.3) * np.exp(-((hertz / 2.5) ** 2)), count)
+    rows = np.fft.irfft(np.fft.rfft(rng.normal(size=(3, count))) * (hertz > 0.3) * np.exp(-((hertz / 2.5) ** 2)), count)
     return Motion(peak * np.array([[1.0], [1.0], [0.3]]) * rows / np.abs(rows).max(axis=1, keepdims=True), dt)
 
 
 @pytest.mark.parametrize("mu", [1.6, 3.0, 5.0])
 def test_shaken_stones_with_high_friction_gain_no_energy(mu):
     """Piles of two or three that rock and fall: seven in ten were left to springs, since sweeps that did not end gave them energy."""
-    dice, fell = np.random.default_rng(7), 0
+    rng, fell = np.random.default_rng(7), 0
     for _ in range(8):
-        width, stones = dice.uniform(0.3, 1.0), []
-        for i in range(dice.integers(2, 4)):
-            stones.append(PileStone(f"s{i}", width, width, width * dice.uniform(0.4, 1.5), on=f"s{i - 1}" if i else "ground"))
-            width *= dice.uniform(0.8, 1.0)
+        width, stones = rng.uniform(0.3, 1.0), []
+        for i in range(rng.integers(2, 4)):
+            stones.append(PileStone(f"s{i}", width, width, width * rng.uniform(0.4, 1.5), on=f"s{i - 1}" if i else "ground"))
+            width *= rng.uniform(0.8, 1.0)
         height = sum(stone.height for stone in stones)
-        shaking = noise(dice, 1.8 * min(stones[0].width / height, 0.7) * G)
+        shaking = noise(rng, 1.8 * min(stones[0].width / height, 0.7) * G)
         response = solve_stack(Pile("pile", tuple(stones), mu=mu), shaking)
         assert not response.warnings
         assert response.outcome.created_j < 5e-4 * sum(stone.mass for stone in stones) * G * height
@@ -107,15 +107,15 @@ def test_stones_below_static_friction_do_not_slide(kinds, reserve, push, kinetic
 def test_shaken_drums_below_static_friction_do_not_slide():
     """Under noise along three axes, whose demand comes to 0.75 to 0.97 of what friction holds, and 0.95 of what turns them over."""
     for seed in range(24):
-        dice = np.random.default_rng(seed)
-        count, push = 1 + seed % 4, dice.uniform(0.75, 0.97)
-        shaking = noise(dice, 1.0).acceleration
+        rng = np.random.default_rng(seed)
+        count, push = 1 + seed % 4, rng.uniform(0.75, 0.97)
+        shaking = noise(rng, 1.0).acceleration
         low, high = 0.0, 20.0
         for _ in range(50):
             middle = 0.5 * (low + high)
             demand = np.max(np.hypot(*(middle * shaking[:2])) / np.maximum(G + middle * shaking[2], 0.1))
             low, high = (middle, high) if demand < push * MU else (low, middle)
-        stones = stacked_stones(count * (ROUND,), WIDTH / (MU * dice.uniform(1.05, 1.4) * count), 0.4)
+        stones = stacked_stones(count * (ROUND,), WIDTH / (MU * rng.uniform(1.05, 1.4) * count), 0.4)
         outcome = solve_stack(Pile("drums", stones), Motion(low * shaking, 0.01)).outcome
         assert max(stone.residual_slip_m for stone in outcome.stones) < 1e-5
 
@@ -128,7 +128,7 @@ def test_unconverged_steps_of_extreme_mass_ratio_are_reported():
         shaking = noise(np.random.default_rng(3), push, seconds=3.0)
         response = solve_stack(Pile("pile", stones, mu=0.7), shaking, step=step)
         slips[ratio, step] = max(stone.residual_slip_m for stone in response.outcome.stones)
-        told = any("did not converge" in str(warning) for warning in response.warnings)
-        assert told == (ratio > 1000.0) or ratio == 1000.0
+        messages = any("did not converge" in str(warning) for warning in response.warnings)
+        assert messages == (ratio > 1000.0) or ratio == 1000.0
     assert slips[30.0, None] < 1e-5
     assert slips[1000.0, 1e-3] < 0.5 * slips[1000.0, None] < 1e-4

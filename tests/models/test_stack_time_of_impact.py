@@ -43,11 +43,11 @@ def greatest_depth(end):
 
 @pytest.mark.parametrize("speed", [10.0, 16.0, 24.0])
 def test_fast_landing_does_not_penetrate_ground(speed):
-    """Where stones are near each other was looked for within a centimetre: from 6 m/s on one came up to a step deep into the ground."""
-    dice = np.random.default_rng(3)
+    """A stone that lands at 6 m/s or faster does not penetrate the ground (was: a search radius of a centimetre)."""
+    rng = np.random.default_rng(3)
     for _ in range(10):
-        places, falls = [[0.0, 0.0, 0.5 + 0.1 * dice.random()]], [[0.0, 0.0, -speed]]
-        end, created = throw_stones(1, places, falls, turns=[0.3 * dice.normal(size=3)], spins=[dice.normal(size=3)])
+        places, falls = [[0.0, 0.0, 0.5 + 0.1 * rng.random()]], [[0.0, 0.0, -speed]]
+        end, created = throw_stones(1, places, falls, turns=[0.3 * rng.normal(size=3)], spins=[rng.normal(size=3)])
         assert greatest_depth(end) < 1e-4
         assert created < 1e-4
 
@@ -56,9 +56,9 @@ def test_fast_landing_does_not_penetrate_ground(speed):
 @pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.5])
 def test_successive_landings_do_not_penetrate(gap, restitution):
     """One was not looked for that came near in the step in which the other landed; or it was pressed away within a hundredth of a step."""
-    dice = np.random.default_rng(3)
+    rng = np.random.default_rng(3)
     for _ in range(20):
-        turn, spin, rise, fall = 0.01 * dice.normal(size=3), dice.normal(size=3), 0.3 + 0.1 * dice.random(), np.array([0.0, 0.0, -4.0])
+        turn, spin, rise, fall = 0.01 * rng.normal(size=3), rng.normal(size=3), 0.3 + 0.1 * rng.random(), np.array([0.0, 0.0, -4.0])
         arm = (HEIGHT + gap) * Rotation.from_rotvec(turn).as_matrix()[:, 2]
         places, velocities = [[0.0, 0.0, rise], [arm[0], arm[1], rise + arm[2]]], [fall, fall + np.cross(spin, arm)]
         end, _created = throw_stones(2, places, velocities, turns=[turn, turn], spins=[spin, spin], restitution=restitution)
@@ -69,9 +69,9 @@ def test_successive_landings_do_not_penetrate(gap, restitution):
 @pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.5])
 def test_driven_stone_does_not_penetrate_its_neighbour(restitution):
     """Neither of the two had moved, so that nothing seemed to come near within the step."""
-    dice, z = np.random.default_rng(3), 0.5 * HEIGHT
+    rng, z = np.random.default_rng(3), 0.5 * HEIGHT
     for _ in range(10):
-        before, behind = 0.02 + 0.02 * dice.random(), 0.002 + 0.003 * dice.random()
+        before, behind = 0.02 + 0.02 * rng.random(), 0.002 + 0.003 * rng.random()
         places = [[-WIDTH - before, 0.0, z], [0.0, 0.0, z], [WIDTH + behind, 0.0, z]]
         end, created = throw_stones(3, places, [[6.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], restitution=restitution)
         assert np.diff(end.track.centres[..., 0], axis=1).min() > WIDTH - 1e-4
@@ -82,16 +82,16 @@ def test_driven_stone_does_not_penetrate_its_neighbour(restitution):
 @pytest.mark.parametrize("seed", [135017, 139531, 212558])
 def test_almost_flat_stone_with_high_friction_does_not_rebound(seed):
     """Sweeps had come to rest where friction drives what it should brake: once in forty thousand such states."""
-    dice = np.random.default_rng(seed)
-    width = dice.uniform(0.3, 1.0)
-    depth = width if dice.random() < 0.5 else width * dice.uniform(0.5, 1.5)
-    height, mu = width * dice.uniform(0.3, 1.5), float(dice.choice([1.3, 1.6, 2.2, 3.0, 5.0]))
-    lies = Rotation.from_rotvec([*(10.0 ** dice.uniform(-7.0, -1.0) * dice.normal(size=2)), 0.0])
-    speed, axes = 10.0 ** dice.uniform(-4.0, 0.0), lies.as_matrix()
+    rng = np.random.default_rng(seed)
+    width = rng.uniform(0.3, 1.0)
+    depth = width if rng.random() < 0.5 else width * rng.uniform(0.5, 1.5)
+    height, mu = width * rng.uniform(0.3, 1.5), float(rng.choice([1.3, 1.6, 2.2, 3.0, 5.0]))
+    lies = Rotation.from_rotvec([*(10.0 ** rng.uniform(-7.0, -1.0) * rng.normal(size=2)), 0.0])
+    speed, axes = 10.0 ** rng.uniform(-4.0, 0.0), lies.as_matrix()
     pile = pile_arrays(Pile("one", (PileStone("s", width, depth, height),), mu=mu), None, 2, PLASTIC_RESTITUTION)
     body, inertia = pile.bodies[0], axes @ pile.inertias[0, INERTIA:INVERSE].reshape(3, 3) @ axes.T
-    body[W : W + 3] = speed * dice.normal(size=3) / width
-    body[V : V + 3], body[L : L + 3] = speed * dice.normal(size=3), inertia @ body[W : W + 3]
+    body[W : W + 3] = speed * rng.normal(size=3) / width
+    body[V : V + 3], body[L : L + 3] = speed * rng.normal(size=3), inertia @ body[W : W + 3]
     body[X + 2] = np.abs(axes[2]) @ [width / 2.0, depth / 2.0, height / 2.0]
     body[Q : Q + 4], body[R : R + 9] = np.roll(lies.as_quat(), 1), axes.ravel()
     end = Simulation(pile, still_ground(4 * 0.0033, 0.0033), (1.0, 1.0), G, 1, True, False, {}).run()
@@ -106,7 +106,7 @@ HANGING = [
 
 @pytest.mark.parametrize(("turn", "place", "spin", "velocity"), HANGING)
 def test_edge_rocking_across_edge_lands_without_penetration(turn, place, spin, velocity):
-    """Where it crossed at one end, the other end was passed over once it had come down: it sank in for a step, and was pushed out."""
+    """The second end of an edge that crosses another lands without penetration (was: missed for a step)."""
     places, still_one = [[0.0, 0.0, 0.5 * HEIGHT], place], np.zeros(3)
     end, created = throw_stones(2, places, [still_one, velocity], turns=[still_one, turn], spins=[still_one, spin])
     assert created < 2e-6

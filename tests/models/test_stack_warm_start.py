@@ -10,10 +10,10 @@ from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_S
 from seisblock.models.stack.warm_start import distribute_load, has_lost_loaded_point, sum_joint_load
 
 
-def rotated_body(dice):
+def rotated_body(rng):
     """Return a body that has turned."""
     body = np.zeros(BODY)
-    body[Q : Q + 4] = dice.normal(size=4)
+    body[Q : Q + 4] = rng.normal(size=4)
     body[Q : Q + 4] /= np.linalg.norm(body[Q : Q + 4])
     update_rotation_matrix(body)
     return body, body[16:25].reshape(3, 3)
@@ -37,14 +37,14 @@ def force_and_moment(slots, axes, field):
 @pytest.mark.parametrize("seed", range(20))
 def test_warm_start_preserves_force_moment_and_twist(seed):
     """Of forces of both steps, whichever points there are, wherever a load presses among them."""
-    dice = np.random.default_rng(seed)
-    body, axes = rotated_body(dice)
-    old, new = rim_points(4, 0.3, dice.uniform(0.0, 6.28)), rim_points(int(dice.integers(4, 9)), 0.3, dice.uniform(0.0, 6.28))
+    rng = np.random.default_rng(seed)
+    body, axes = rotated_body(rng)
+    old, new = rim_points(4, 0.3, rng.uniform(0.0, 6.28)), rim_points(int(rng.integers(4, 9)), 0.3, rng.uniform(0.0, 6.28))
     points = int(np.count_nonzero(np.hypot(new[:, POSITION], new[:, POSITION + 1])))
     old[:4, ACTIVE] = 1.0
     old[2, CACHED_SLIDING] = 1.0
     for field in (CACHED_FORCE, PREVIOUS_FORCE):
-        force = np.column_stack([dice.normal(size=(4, 2)), dice.uniform(5.0, 10.0, 4)])
+        force = np.column_stack([rng.normal(size=(4, 2)), rng.uniform(5.0, 10.0, 4)])
         old[:4, field : field + 3] = force @ axes.T
     loads = np.zeros((2, 18))
     assert sum_joint_load(old, body, loads)
@@ -57,13 +57,13 @@ def test_warm_start_preserves_force_moment_and_twist(seed):
 
 def test_matched_points_keep_their_forces():
     """Only where one that bore something is left without one near it are forces shared out."""
-    old, stays, turned = rim_points(4, 0.3, 0.0), rim_points(4, 0.3, 1e-4), rim_points(4, 0.3, 0.1)
+    old, stays, rotated = rim_points(4, 0.3, 0.0), rim_points(4, 0.3, 1e-4), rim_points(4, 0.3, 0.1)
     old[:4, ACTIVE] = 1.0
     old[1, CACHED_FORCE + 2] = 1.0
     assert not has_lost_loaded_point(4, stays, old, 3e-4)
-    assert has_lost_loaded_point(4, turned, old, 3e-4)
+    assert has_lost_loaded_point(4, rotated, old, 3e-4)
     old[1, CACHED_FORCE + 2] = 0.0
-    assert not has_lost_loaded_point(4, turned, old, 3e-4)
+    assert not has_lost_loaded_point(4, rotated, old, 3e-4)
 
 
 def test_two_or_collinear_points_get_no_distributed_load():

@@ -11,8 +11,10 @@ import pytest
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate
+from seisblock.models.uplift.batch import uplift_many
 from seisblock.models.uplift.harmonic import uplift_thresholds
-from seisblock.models.uplift.model import UPLIFT, F, W, X, contact_name, parameters, rotations, static_state
+from seisblock.models.uplift.minima import uplift_minima
+from seisblock.models.uplift.model import ALL_CORNERS, GLUED, UPLIFT, F, W, X, contact_name, parameters, rotations, static_state
 from seisblock.models.uplift.modes import natural_modes
 from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion, motion_of
@@ -56,10 +58,10 @@ def _energy(states, body, modes):
     jx, jy, _ = (j * body.depth**2 for j in body.inertia)
     wx, wy, wz = body.omega
     u, z, vz = states[:, :4], states[:, :4].mean(axis=1), states[:, W : W + 4].mean(axis=1)
-    held = (np.asarray(modes)[:, None] >> np.arange(4)) & 1
+    holding = (np.asarray(modes)[:, None] >> np.arange(4)) & 1
     kinetic = 0.5 * (states[:, W + 4] ** 2 + states[:, W + 5] ** 2 + vz**2 + jx * rx**2 + jy * ry**2)
     slide_x, slide_y = states[:, X] - 0.5 * body.height * ty, states[:, X + 1] + 0.5 * body.height * tx
-    elastic = 0.5 * (wx**2 * slide_x**2 + wy**2 * slide_y**2) + 0.5 * wz**2 / 4.0 * (held * u**2).sum(axis=1)
+    elastic = 0.5 * (wx**2 * slide_x**2 + wy**2 * slide_y**2) + 0.5 * wz**2 / 4.0 * (holding * u**2).sum(axis=1)
     return kinetic + elastic + G * z
 
 
@@ -109,11 +111,11 @@ def test_uplift_scale_separates_contact_from_uplift():
 def test_mirrored_motion_exchanges_corners():
     """Reversing the motion along x exchanges corners 1 and 3, 2 and 4."""
     motion = shaking(3.0, 0.01)
-    there = solve_uplift(SLENDER, motion)
+    counterpart = solve_uplift(SLENDER, motion)
     back = solve_uplift(SLENDER, Motion(motion.acceleration * np.array([[-1.0], [1.0], [1.0]]), motion.dt))
-    for one, other in ((1, 3), (2, 4)):
-        np.testing.assert_allclose(back[f"uplift_{one}"], there[f"uplift_{other}"], rtol=0, atol=1e-12)
-    np.testing.assert_allclose(back["rotation"], -there["rotation"], rtol=0, atol=1e-12)
+    for first, second in ((1, 3), (2, 4)):
+        np.testing.assert_allclose(back[f"uplift_{first}"], counterpart[f"uplift_{second}"], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(back["rotation"], -counterpart["rotation"], rtol=0, atol=1e-12)
 
 
 def test_scaled_block_and_motion_give_similar_response():
@@ -132,19 +134,19 @@ def test_resampling_piecewise_linear_motion_changes_nothing():
     coarse = np.arange(motion.samples)
     fine = np.arange(2 * motion.samples - 1) / 2
     refined = Motion(np.array([np.interp(fine, coarse, row) for row in motion.acceleration]), motion.dt / 2)
-    one, two = solve_uplift(SLENDER, motion).outcome, solve_uplift(SLENDER, refined).outcome
-    assert two.max_uplift_m == pytest.approx(one.max_uplift_m, rel=1e-9)
-    assert two.contact_changes == one.contact_changes
+    first, two = solve_uplift(SLENDER, motion).outcome, solve_uplift(SLENDER, refined).outcome
+    assert two.max_uplift_m == pytest.approx(first.max_uplift_m, rel=1e-9)
+    assert two.contact_changes == first.contact_changes
 
 
 def test_mass_scales_forces_only():
     """A block described by its frequencies moves the same whatever its mass; forces are proportional to it."""
     motion = shaking(3.0, 0.01)
     heavy = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=6.0, beta=0.707, mass=5000.0)
-    one, five = solve_uplift(SLENDER, motion).outcome, solve_uplift(heavy, motion).outcome
-    assert five.max_uplift_m == pytest.approx(one.max_uplift_m, rel=1e-9)
-    assert five.max_contact_force_n == pytest.approx(5.0 * one.max_contact_force_n, rel=1e-9)
-    assert five.max_contact_force_ratio == pytest.approx(one.max_contact_force_ratio, rel=1e-9)
+    first, five = solve_uplift(SLENDER, motion).outcome, solve_uplift(heavy, motion).outcome
+    assert five.max_uplift_m == pytest.approx(first.max_uplift_m, rel=1e-9)
+    assert five.max_contact_force_n == pytest.approx(5.0 * first.max_contact_force_n, rel=1e-9)
+    assert five.max_contact_force_ratio == pytest.approx(first.max_contact_force_ratio, rel=1e-9)
 
 
 def test_outcome_agrees_with_channels_and_phases():
@@ -171,9 +173,9 @@ def test_contact_changes_are_separated_by_more_than_round_off(seed):
     """No corner parts and meets again within round-off of one instant, however close to a sample the change is."""
     response = solve_uplift(SLENDER, shaking(5.0, 0.01, seed=seed))
     for corner in "1234":
-        own = [event for event in response.events if event.name[7] == corner]
-        assert [event.name[9:] for event in own] == ["lifts", "lands"] * (len(own) // 2) + ["lifts"] * (len(own) % 2)
-        assert np.diff([event.time_s for event in own]).min(initial=1.0) > 1e-9
+        items = [event for event in response.events if event.name[7] == corner]
+        assert [event.name[9:] for event in items] == ["lifts", "lands"] * (len(items) // 2) + ["lifts"] * (len(items) % 2)
+        assert np.diff([event.time_s for event in items]).min(initial=1.0) > 1e-9
 
 
 @pytest.mark.parametrize("rows", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 3.0), (1.0, 0.0, 1.0)])
@@ -257,9 +259,9 @@ def test_large_tilt_warns_beyond_model_validity():
 def test_motion_sensitive_to_round_off_is_reported():
     """Two thousand contact changes on stiff springs amplify round-off to the size of the answer, which then says so."""
     stiff = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=60.0, beta=0.707)
-    found = solve_uplift(stiff, shaking(60.0, 0.01))
-    (warned,) = (message for message in found.warnings if "round-off" in message)
-    assert ("mm" in warned) == found.outcome.within_model, "no height is told where none can be believed"
+    result = solve_uplift(stiff, shaking(60.0, 0.01))
+    (warned,) = (message for message in result.warnings if "round-off" in message)
+    assert ("mm" in warned) == result.outcome.within_model, "no height is told where none can be believed"
     assert solve_uplift(SLENDER, shaking(3.0, 0.01, peaks=(1.0, 0.8, 0.5))).warnings == ()
 
 
@@ -279,3 +281,42 @@ def test_record_without_vertical_component_is_solved_and_reported():
     record = Record((Component("NS", motion.transverse), Component("EW", motion.horizontal)), 0.01)
     response = solve_uplift(SLENDER, motion_of(record, "EW"))
     assert any("no vertical component" in message for message in response.warnings)
+
+
+def test_run_without_uplift_needs_one_integration(monkeypatch):
+    """The glued run and the repetition of a block that does not lift have the bits of its run, so that neither is integrated."""
+    motion, gains = shaking(20.0, 0.01), (0.1, 0.1, 0.1)
+    p, start = parameters(SLENDER, G), static_state(SLENDER, G)
+    scaled = Motion(0.1 * np.array(motion.acceleration), 0.01)
+    run = integrate(UPLIFT, motion, p, start, ALL_CORNERS, gains=gains)
+    glued = integrate(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
+    assert np.array_equal(run.extrema, glued.extrema)
+    calls = []
+    monkeypatch.setattr("seisblock.models.uplift.solve.integrate", lambda *a, **k: calls.append(a[0]) or integrate(*a, **k))
+    outcome = solve_uplift(SLENDER, scaled).outcome
+    assert not outcome.uplifts
+    assert len(calls) == 1
+    assert outcome.uplift_scale > 1.0
+    assert solve_uplift(SLENDER, motion).outcome.uplifts
+    assert len(calls) == 4
+
+
+def test_batch_of_lifting_and_resting_blocks_equals_single_runs():
+    """Rows that lift between rows that do not keep their places."""
+    motion, factors = shaking(20.0, 0.01), (0.1, 1.0, 0.05, 1.5)
+    batch = uplift_many([SLENDER], motion, gains=[(factor, factor, factor) for factor in factors])
+    assert batch.uplifts.tolist() == [False, True, False, True]
+    for row, factor in enumerate(factors):
+        outcome = solve_uplift(SLENDER, Motion(factor * np.array(motion.acceleration), 0.01)).outcome
+        assert batch.uplift_scale[row] * factor == pytest.approx(outcome.uplift_scale * factor, rel=1e-9)
+        assert batch.max_uplift_m[row] == pytest.approx(outcome.max_uplift_m, rel=1e-9)
+
+
+@pytest.mark.parametrize(("rho_deg", "modes"), [(90.0, [0, 4]), (0.0, [2])])
+def test_undamped_minima_are_the_frequencies_of_excited_modes(rho_deg, modes):
+    """Without damping any acceleration lifts at resonance; rocking modes answer horizontal shaking only, the vertical one vertical."""
+    body = SpringBlock.from_ratios(1.0, 0.707, frequency_vertical=2.0, damping=0.0)
+    omega = natural_modes(body).omega
+    minima = uplift_minima(body, rho_deg=rho_deg)
+    assert [m.frequency_ratio for m in minima] == pytest.approx([omega[i] / omega[0] for i in modes], rel=1e-9)
+    assert [m.acceleration_ratio for m in minima] == [0.0] * len(modes)

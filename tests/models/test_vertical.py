@@ -10,6 +10,7 @@ from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.core.registry import get_solver, solver_names
 from seisblock.models.respond.solve import solve_respond
+from seisblock.models.rigid3d.solve import solve_rigid3d
 from seisblock.models.rock.solve import solve_rock
 from seisblock.models.slide.solve import solve_slide
 from seisblock.models.stack.solve import solve_stack
@@ -33,6 +34,7 @@ RUNS = {
     "slide": (solve_slide, 0.2, {}),
     "respond": (solve_respond, BLOCK, {"mu": 0.25}),
     "uplift": (solve_uplift, SpringBlock.from_frequency(0.4, 0.4, 1.8, frequency_vertical=10.0, beta=0.707), {}),
+    "rigid3d": (solve_rigid3d, BLOCK, {"mu": 0.25}),
     "stack": (solve_stack, load_pile("wagata"), {"points": 2}),
 }
 runs = pytest.mark.parametrize("name", RUNS)
@@ -105,10 +107,10 @@ def test_slide_study_takes_vertical_motion_of_each_motion_without_beta():
     ]
     assert set(totals) == {4}
     # the same slip with a given factor, beside the run of the horizontal motion alone
-    given = slide_study([0.1, 0.2], three, vertical=True)
-    assert [point.max_slip_m for point in given] == [point.max_slip_m for point in points[:2]]
-    alone = slide_study([0.1, 0.2], three, vertical=False)
-    assert [point.beta for point in given] == [a.max_slip_m / b.max_slip_m for a, b in zip(given, alone, strict=True)]
+    arguments = slide_study([0.1, 0.2], three, vertical=True)
+    assert [point.max_slip_m for point in arguments] == [point.max_slip_m for point in points[:2]]
+    single = slide_study([0.1, 0.2], three, vertical=False)
+    assert [point.beta for point in arguments] == [a.max_slip_m / b.max_slip_m for a, b in zip(arguments, single, strict=True)]
 
 
 @pytest.mark.parametrize("up", [0.0, 4.0, -6.0])

@@ -1,4 +1,4 @@
-"""Which of the papers' cases take seconds: those that ``validate --quick`` leaves out."""
+"""Slow cases of the papers: those that ``validate --quick`` omits."""
 
 import pytest
 

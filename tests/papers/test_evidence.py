@@ -53,7 +53,7 @@ def first_call(case):
 
 @pytest.mark.parametrize("case", QUICK, ids=lambda case: case.key)
 def test_case_kinds_are_true(case):
-    """What runs no line of the program is the print checked against itself; what is fed a bundled record or survey is fed a stand-in."""
+    """Cases that run no line of the program are consistency of the print; cases on a bundled record or survey are rebuilt."""
     reached = first_call(case)
     assert reached != "nothing" or case.kind == "print"
     assert reached != "reads" or case.kind == "rebuilt"
@@ -61,12 +61,12 @@ def test_case_kinds_are_true(case):
 
 def test_cases_have_unique_keys_and_known_kinds():
     """Keys are unique, kinds known, papers among the references, tolerances numbers."""
-    every = cases()
-    assert len({case.key for case in every}) == len(every)
-    assert {case.kind for case in every} == set(EVIDENCE_KINDS)
-    assert {case.paper for case in every} <= set(REFERENCES)
-    assert all(math.isfinite(case.tolerance) and case.tolerance >= 0.0 for case in every)
-    assert all(re.search(r"eq|table|fig|sec|ph|rock|puls|slid|\]_$", case.where) for case in every)
+    all_cases = cases()
+    assert len({case.key for case in all_cases}) == len(all_cases)
+    assert {case.kind for case in all_cases} == set(EVIDENCE_KINDS)
+    assert {case.paper for case in all_cases} <= set(REFERENCES)
+    assert all(math.isfinite(case.tolerance) and case.tolerance >= 0.0 for case in all_cases)
+    assert all(re.search(r"eq|table|fig|sec|ph|rock|puls|slid|\]_$", case.where) for case in all_cases)
 
 
 @pytest.mark.parametrize("case", [case for case in cases() if case.status == "differs"], ids=lambda case: case.key)
@@ -81,8 +81,8 @@ def test_differing_case_holds_its_own_value(case):
         or "pile" in case.key
         or case.key in ("okumura-fig11-corner-4", "fema-p58-constant")
     )
-    for wrong in (value + 2.0 * within + 1e-3, value - 2.0 * within - 1e-3, expected, math.nan):
-        assert dataclasses.replace(case, compute=lambda wrong=wrong: wrong).run().verdict == "fails"
+    for invalid in (value + 2.0 * within + 1e-3, value - 2.0 * within - 1e-3, expected, math.nan):
+        assert dataclasses.replace(case, compute=lambda faulty=invalid: faulty).run().verdict == "fails"
     assert dataclasses.replace(case, compute=lambda: value).run().verdict == "differs"
 
 
@@ -115,8 +115,8 @@ def test_readme_table_equals_case_counts():
     """Its table has the four kinds in words, with how many cases each has and how many of them differ."""
     text = (PACKAGE.parent / "README.md").read_text(encoding="utf-8")
     for kind, words in EVIDENCE_KINDS.items():
-        mine = [case for case in cases() if case.kind == kind]
-        assert f"| {words} | {len(mine)} | {sum(case.status == 'differs' for case in mine)} |" in text
+        computed = [case for case in cases() if case.kind == kind]
+        assert f"| {words} | {len(computed)} | {sum(case.status == 'differs' for case in computed)} |" in text
 
 
 def test_importing_cases_computes_nothing():
@@ -136,5 +136,5 @@ def test_importing_cases_computes_nothing():
         "sys.setprofile(None)\n"
         "print(*sorted(called), sep='\\n')\n"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == []
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert result.stdout.split() == []

@@ -33,14 +33,14 @@ def medians():
 
 def test_nine_fragilities_equal_packaged_fema_p58():
     """Median, dispersion and unit are those of the packaged FEMA P-58."""
-    (name,) = [each for each in api.list_datasets() if "P-58 2nd" in each]
+    (name,) = [item for item in api.list_datasets() if "P-58 2nd" in item]
     table = api.get_fragility(name)
     for component, (depth, height, median) in SHELVES.items():
         row = table.loc[component]
         assert (float(row["LS1", "Theta_0"]), float(row["LS1", "Theta_1"]), row["Demand", "Unit"]) == (median, 0.5, "mps")
-        told = api.get_metadata(name, "fragility")[component]["Comments"]
+        curves = api.get_metadata(name, "fragility")[component]["Comments"]
         inches = {12.625: "12-5/8", 81.25: "81-1/4"}
-        assert f'{inches.get(depth, f"{depth:g}")}" deep x {inches.get(height, f"{height:g}")}" tall' in told
+        assert f'{inches.get(depth, f"{depth:g}")}" deep x {inches.get(height, f"{height:g}")}" tall' in curves
 
 
 def test_rocking_block_gives_fema_medians_up_to_one_constant(medians):
@@ -78,5 +78,5 @@ def test_fragility_command_gives_fema_medians(medians, tmp_path):
     answer = CliRunner().invoke(main, ["fragility", *words, "--levels", levels, "--bootstrap", "2", "--pelicun", str(tmp_path / "p.csv")])
     assert answer.exit_code == 0, answer.stderr
     with (tmp_path / "p.csv").open() as stream:
-        found = {row["ID"]: float(row["LS1-Theta_0"]) for row in csv.DictReader(stream)}
-    assert found == pytest.approx({name.replace(".", "_"): median for name, median in medians.items()}, rel=1e-6)
+        result = {row["ID"]: float(row["LS1-Theta_0"]) for row in csv.DictReader(stream)}
+    assert result == pytest.approx({name.replace(".", "_"): median for name, median in medians.items()}, rel=1e-6)

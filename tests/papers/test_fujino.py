@@ -38,7 +38,7 @@ def test_eq_1_equality_sticks():
 
 @pytest.mark.kernel
 def test_section_2_2_slip_reverses_at_once_where_static_friction_is_exceeded():
-    """When the relative velocity reaches zero under 0.5 g and mu = 0.1, the object slips the other way without a rest."""
+    """At zero relative velocity under 0.5 g and mu = 0.1 the slip reverses without a rest."""
     square = np.concatenate([np.full(50, 4.9), np.full(150, -4.9)])
     response = solve_slide(0.1, Motion.from_arrays(square, 0.01), gravity=G)
     assert response.outcome.reversals == 1
@@ -60,7 +60,7 @@ def test_section_3_1_speed_is_kept_at_the_foot():
 
 @pytest.mark.kernel
 def test_flight_is_ballistic_and_lands_with_a_friction_impulse():
-    """Where the base falls away faster than g the object flies; at landing friction takes mu times the normal impulse."""
+    """A base that falls faster than g releases the object; at landing friction takes mu times the normal impulse."""
     up = np.concatenate([np.zeros(10), np.full(30, -2.0 * G), np.full(60, 2.0 * G), np.zeros(100)])
     along = np.concatenate([np.full(100, 6.0), np.zeros(100)])
     motion = Motion.from_arrays(along, 0.005, vertical=up)

@@ -3,13 +3,12 @@
 import pytest
 
 from seisblock.criteria.gravestones import DOWELLED, overturning_ratio
-from seisblock.validation.furukawa import CASES, scatter
-from seisblock.validation.furukawa_surveys import SURVEYS
+from seisblock.validation.furukawa import CASES, SURVEYS, scatter
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.key)
 def test_case(case):
-    """What is said to hold holds within the print, what is said to differ still does."""
+    """Each case holds or differs as its status states, within its tolerance."""
     result = case.run()
     assert result.verdict == case.status, f"{case.where}: expected {result.expected}, computed {result.computed}"
 

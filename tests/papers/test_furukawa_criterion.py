@@ -39,7 +39,7 @@ def test_inverses_recover_input(fit):
 
 
 def test_no_frequency_overturns_below_the_static_level():
-    """Where PGA times H/B is below p no frequency does it: NaN, not an error."""
+    """Below PGA times H/B = p no frequency overturns: NaN, not an error."""
     assert np.isnan(overturning_frequency(2.0, 4.0))
 
 

@@ -23,8 +23,8 @@ def test_edge_wear_of_one_tenth_is_least_biased():
 
 def test_field_figure_shows_every_model_and_survey():
     """A bar per station with the surveyed rate, a marker per station and model with its rate."""
-    drawn = figure()
-    (axis,) = drawn.axes
+    fig = figure()
+    (axis,) = fig.axes
     assert [bar.get_height() for bar in axis.patches] == SURVEYED_RATES.tolist()
     assert set(STYLES) == {model.key for model in MODELS}
     for model, line in zip(MODELS, axis.lines, strict=True):

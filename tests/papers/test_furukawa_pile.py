@@ -20,5 +20,5 @@ def test_motions_have_the_peaks_of_table_4(level):
     motion = kobe_like(level, 0)
     pga, pgv = LEVELS[level]
     assert np.abs(motion.acceleration).max(axis=1) == pytest.approx(pga)
-    found = [np.abs(ground_history(row, motion.dt).velocity).max() for row in motion.acceleration]
-    assert found == pytest.approx(pgv, rel=0.02)
+    result = [np.abs(ground_history(row, motion.dt).velocity).max() for row in motion.acceleration]
+    assert result == pytest.approx(pgv, rel=0.02)

@@ -131,8 +131,8 @@ def test_one_sine_without_impact():
 
 def test_zhang_and_makris_safe_window():
     """One sine, p = 2.14, alpha = 0.25, e = 0.9, W = 5: overturns from 3.019 to 6.318 and above 7.168, safe between."""
-    found = [threshold(lambda a: sine(a, 5.0, 2), low, high) for low, high in ((2, 4), (5, 6.6), (6.8, 8))]
-    np.testing.assert_allclose(found, [3.019, 6.318, 7.168], atol=5e-4)
+    result = [threshold(lambda a: sine(a, 5.0, 2), low, high) for low, high in ((2, 4), (5, 6.6), (6.8, 8))]
+    np.testing.assert_allclose(result, [3.019, 6.318, 7.168], atol=5e-4)
     block = from_slenderness(ALPHA, P)
     verdicts = [
         rock_verdict(block, sine(x, 5.0, 2), options=RockOptions(restitution=0.9, linear=True)).overturned for x in (2.9, 5, 6.7, 7.5)
@@ -179,9 +179,9 @@ def test_free_fall_after_the_record_is_timed_exactly():
     amplitude = brentq(lambda s: 0.5 - rock_verdict(block, Motion.from_arrays(s * pulse, 0.01)).overturned, 0.1, 3.0, xtol=1e-9) + 1e-3
     for samples in (62, 75, 90):
         cut = solve_rock(block, Motion.from_arrays(amplitude * pulse[:samples], 0.01)).outcome
-        whole = solve_rock(block, Motion.from_arrays(np.append(amplitude * pulse, np.zeros(2000)), 0.01)).outcome
+        full = solve_rock(block, Motion.from_arrays(np.append(amplitude * pulse, np.zeros(2000)), 0.01)).outcome
         assert cut.decided_after_record
-        assert not whole.decided_after_record
-        assert cut.overturned is whole.overturned is True
-        assert cut.alpha_passed_s == pytest.approx(whole.alpha_passed_s, abs=1e-9)
-        assert cut.overturning_time_s == pytest.approx(whole.overturning_time_s, abs=1e-9)
+        assert not full.decided_after_record
+        assert cut.overturned is full.overturned is True
+        assert cut.alpha_passed_s == pytest.approx(full.alpha_passed_s, abs=1e-9)
+        assert cut.overturning_time_s == pytest.approx(full.overturning_time_s, abs=1e-9)

@@ -61,8 +61,8 @@ def test_modes_of_any_base_are_those_of_the_whole_matrix():
     """Solving the four uncoupled groups gives what one eigenvalue problem of order six gives."""
     body = SpringBlock(1.2, 0.8, 2.0, 500.0, (2e4, 3e4, 5e4))
     modes = natural_modes(body)
-    whole = np.sqrt(eigh(stiffness_matrix(body), mass_matrix(body), eigvals_only=True))
-    np.testing.assert_allclose(modes.omega, whole, rtol=1e-12)
+    full = np.sqrt(eigh(stiffness_matrix(body), mass_matrix(body), eigvals_only=True))
+    np.testing.assert_allclose(modes.omega, full, rtol=1e-12)
     np.testing.assert_allclose(modes.shapes.T @ mass_matrix(body) @ modes.shapes, np.eye(6), atol=1e-12)
 
 
@@ -80,9 +80,9 @@ def test_minima_are_exact(phi, rho):
     minima = uplift_minima(body, phi_deg=phi, rho_deg=rho)
     assert minima
     for minimum in minima:
-        near = minimum.frequency_ratio * (1.0 + np.linspace(-1e-3, 1e-3, 401))
-        least = uplift_thresholds(body, near, phi_deg=phi, rho_deg=rho).min(axis=0)
-        assert minimum.acceleration_ratio <= least.min() * (1.0 + 1e-12)
+        nearby = minimum.frequency_ratio * (1.0 + np.linspace(-1e-3, 1e-3, 401))
+        smallest = uplift_thresholds(body, nearby, phi_deg=phi, rho_deg=rho).min(axis=0)
+        assert minimum.acceleration_ratio <= smallest.min() * (1.0 + 1e-12)
 
 
 @pytest.mark.parametrize(("phi", "rho"), OBLIQUE)
@@ -122,9 +122,9 @@ def test_rotating_a_square_base_by_a_right_angle_renames_its_corners():
     body = SpringBlock.from_ratios(1.5, 0.8)
     ratio = np.linspace(0.1, 5.0, 50)
     along = uplift_thresholds(body, ratio, phi_deg=20.0, rho_deg=70.0)
-    turned = uplift_thresholds(body, ratio, phi_deg=110.0, rho_deg=70.0)
+    rotated = uplift_thresholds(body, ratio, phi_deg=110.0, rho_deg=70.0)
     # (x, y) -> (-y, x): corner (+,+) goes to (-,+), (+,-) to (+,+), (-,+) to (-,-), (-,-) to (+,-)
-    np.testing.assert_allclose(turned[[2, 0, 3, 1]], along, rtol=1e-10)
+    np.testing.assert_allclose(rotated[[2, 0, 3, 1]], along, rtol=1e-10)
 
 
 @pytest.mark.parametrize(

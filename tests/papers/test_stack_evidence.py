@@ -1,4 +1,4 @@
-"""Why eq. (10) of [Furukawa2009]_ does not come out, and what the steps of a pile are worth: each case reads as the program claims."""
+"""Reasons for the difference to eq. (10) of [Furukawa2009]_, and accuracy of the steps of a pile."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from seisblock.validation import furukawa_dowel, stack_round, stack_steps
 
 @pytest.mark.parametrize("case", (*furukawa_dowel.CASES, *stack_steps.CASES, *stack_round.CASES), ids=lambda case: case.key)
 def test_case(case):
-    """What holds holds, what differs does by as much as its note explains."""
+    """Each case holds, or differs by the amount that its note explains."""
     result = case.run()
     assert result.verdict == case.status, f"{case.where}: expected {result.expected}, computed {result.computed}"
 

@@ -7,6 +7,6 @@ from seisblock.validation.sugimoto import CASES
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.key)
 def test_case(case):
-    """What is said to hold holds within the print, what is said to differ still does."""
+    """Each case holds or differs as its status states, within its tolerance."""
     result = case.run()
     assert result.verdict == case.status, f"{case.where}: expected {result.expected}, computed {result.computed}"

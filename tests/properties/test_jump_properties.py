@@ -1,4 +1,4 @@
-"""What must hold for every jump, whatever the numbers."""
+"""Properties of every jump."""
 
 import itertools
 
@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
-from seisblock.models.jump.chain import JUMPED, NO_JUMP
-from seisblock.models.jump.solve import DID_NOT_ROCK, solve_jump
+from seisblock.models.jump.chain import ChainOutcome
+from seisblock.models.jump.solve import solve_jump
 from seisblock.records import Motion
 from tests.motions import half_sine
 
@@ -31,12 +31,12 @@ def test_mirrored_motion_gives_mirrored_chain(seed, drop, spin, landing):
     """The mirrored motion gives the mirrored chain, bit by bit."""
     a = noise(seed)
     options = {"contact": CONTACT, "drop": drop, "spin": f"ratio={spin}", "landing": landing}
-    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), **options)
-    other = solve_jump(SHORT, Motion.from_arrays(-a, 0.01), **options)
-    assert [c.outcome for c in one.outcome.chains] == [c.outcome for c in other.outcome.chains]
-    np.testing.assert_array_equal(one["displacement"], -other["displacement"])
-    np.testing.assert_array_equal(one["rotation"], -other["rotation"])
-    np.testing.assert_array_equal(one["height"], other["height"])
+    first = solve_jump(SHORT, Motion.from_arrays(a, 0.01), **options)
+    second = solve_jump(SHORT, Motion.from_arrays(-a, 0.01), **options)
+    assert [c.outcome for c in first.outcome.chains] == [c.outcome for c in second.outcome.chains]
+    np.testing.assert_array_equal(first["displacement"], -second["displacement"])
+    np.testing.assert_array_equal(first["rotation"], -second["rotation"])
+    np.testing.assert_array_equal(first["height"], second["height"])
 
 
 @given(st.integers(0, 10_000), st.floats(0.25, 8.0), st.sampled_from(["paper", "friction"]))
@@ -46,10 +46,10 @@ def test_scaled_block_gives_similar_chain(seed, size, landing):
     a = noise(seed)
     big = TwoLayerBlock(2.08 * size, 2.5 * size, 1.06 * size, 1.84 * size, 1303.7, 160.0)
     options = {"contact": CONTACT, "spin": "ratio=0.19", "landing": landing, "first": True}
-    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), **options).outcome
-    other = solve_jump(big, Motion.from_arrays(a, 0.01 * np.sqrt(size)), **options).outcome
-    assert one.outcome == other.outcome
-    for c, d in zip(one.chains, other.chains, strict=True):
+    first = solve_jump(SHORT, Motion.from_arrays(a, 0.01), **options).outcome
+    second = solve_jump(big, Motion.from_arrays(a, 0.01 * np.sqrt(size)), **options).outcome
+    assert first.outcome == second.outcome
+    for c, d in zip(first.chains, second.chains, strict=True):
         assert d.max_rotation_rad == pytest.approx(c.max_rotation_rad, rel=1e-8, abs=1e-14)
         if c.total_displacement_m:
             assert d.total_displacement_m == pytest.approx(size * c.total_displacement_m, rel=1e-6, abs=1e-9)
@@ -61,10 +61,10 @@ def test_refining_the_record_changes_nothing(seed):
     """Interpolating the record linearly is the same motion: the same times to round-off."""
     a = noise(seed)
     fine = np.interp(np.arange(4 * a.size - 3) / 4, np.arange(a.size), a)
-    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT, spin="ratio=0.19", drop=0.3).outcome
-    other = solve_jump(SHORT, Motion.from_arrays(fine, 0.0025), contact=CONTACT, spin="ratio=0.19", drop=0.3).outcome
-    assert one.outcome == other.outcome
-    for c, d in zip(one.chains, other.chains, strict=True):
+    first = solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT, spin="ratio=0.19", drop=0.3).outcome
+    second = solve_jump(SHORT, Motion.from_arrays(fine, 0.0025), contact=CONTACT, spin="ratio=0.19", drop=0.3).outcome
+    assert first.outcome == second.outcome
+    for c, d in zip(first.chains, second.chains, strict=True):
         for key in ("rocking_start_s", "impact_s", "landing_s", "end_s", "total_displacement_m"):
             left, right = getattr(c, key), getattr(d, key)
             assert (left is None) == (right is None)
@@ -98,9 +98,9 @@ def test_motion_at_threshold_starts_no_rocking():
     """Equality does not rock; a hair above does."""
     threshold = SHORT.rocking_threshold(G)
     plateau = np.concatenate([np.zeros(5), np.full(20, threshold), np.zeros(5)])
-    assert solve_jump(SHORT, Motion.from_arrays(plateau, 0.01), contact=CONTACT, gravity=G).outcome.outcome == DID_NOT_ROCK
+    assert solve_jump(SHORT, Motion.from_arrays(plateau, 0.01), contact=CONTACT, gravity=G).outcome.outcome == ChainOutcome.DID_NOT_ROCK
     rocked = solve_jump(SHORT, Motion.from_arrays(plateau * (1 + 1e-9), 0.01), contact=CONTACT, gravity=G).outcome
-    assert rocked.outcome != DID_NOT_ROCK
+    assert rocked.outcome != ChainOutcome.DID_NOT_ROCK
 
 
 def test_first_sample_above_threshold_starts_rocking():
@@ -112,8 +112,8 @@ def test_first_sample_above_threshold_starts_rocking():
 def test_spin_ratio_above_restitution_prevents_jump():
     """A spin ratio above e_y presses a corner into the floor: the chain ends at the impact."""
     motion = half_sine(6.5, 0.6, 3.0)
-    assert solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.86").outcome.outcome == NO_JUMP
-    assert solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.84").outcome.outcome == JUMPED
+    assert solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.86").outcome.outcome == ChainOutcome.NO_JUMP
+    assert solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.84").outcome.outcome == ChainOutcome.JUMPED
 
 
 def test_chains_follow_in_time_and_accumulate():
@@ -124,7 +124,7 @@ def test_chains_follow_in_time_and_accumulate():
     for before, after in itertools.pairwise(chains):
         assert before.end_s <= after.rocking_start_s
     moved = sum(c.total_displacement_m or 0.0 for c in chains)
-    if all(c.outcome in (JUMPED, NO_JUMP) for c in chains):
+    if all(c.outcome in (ChainOutcome.JUMPED, ChainOutcome.NO_JUMP) for c in chains):
         assert response["displacement"][-1] == pytest.approx(moved, abs=1e-9)
     assert np.all(np.diff(response.time) >= 0)
     assert all(p.end_s >= p.start_s for p in response.phases)
@@ -134,11 +134,11 @@ def test_direction_option_ignores_opposite_push():
     """Direction + ignores an earlier push to the other side."""
     a = np.concatenate([-half_sine(6.5, 0.6, 3.0).horizontal, half_sine(6.5, 0.6, 3.0).horizontal])
     motion = Motion.from_arrays(a, 0.01)
-    both = solve_jump(SHORT, motion, contact=CONTACT).outcome.chains[0]
+    result = solve_jump(SHORT, motion, contact=CONTACT).outcome.chains[0]
     plus = solve_jump(SHORT, motion, contact=CONTACT, direction="+").outcome.chains[0]
-    assert (both.direction, plus.direction) == ("-", "+")
-    assert plus.rocking_start_s == pytest.approx(both.rocking_start_s + 3.0, abs=1e-12)
-    assert plus.total_displacement_m == pytest.approx(-both.total_displacement_m, rel=1e-9)
+    assert (result.direction, plus.direction) == ("-", "+")
+    assert plus.rocking_start_s == pytest.approx(result.rocking_start_s + 3.0, abs=1e-12)
+    assert plus.total_displacement_m == pytest.approx(-result.total_displacement_m, rel=1e-9)
 
 
 def test_strong_push_overturns_block():

@@ -1,4 +1,4 @@
-"""What every record's measures obey: scaling, mirror image, shift in time, refinement of the straight lines."""
+"""Properties of measures: scaling, mirror image, shift in time, refinement of the straight lines."""
 
 import numpy as np
 import pytest
@@ -31,23 +31,23 @@ def numbers(answer):
 @given(WAVES, st.sampled_from([0.25, 2.0, 8.0]))
 def test_measures_scale_with_motion(wave, factor):
     """Peaks scale, frequencies and durations over a scaled threshold do not, Arias goes with the square, JMA with 2 log10."""
-    one = measure(three(wave), threshold=1.0, conventions=PLAIN)
-    other = measure(three(wave * factor), threshold=factor, conventions=PLAIN)
-    (peaks, fixed, duration), (peaks_2, fixed_2, duration_2) = numbers(one), numbers(other)
+    first = measure(three(wave), threshold=1.0, conventions=PLAIN)
+    second = measure(three(wave * factor), threshold=factor, conventions=PLAIN)
+    (peaks, fixed, duration), (peaks_2, fixed_2, duration_2) = numbers(first), numbers(second)
     np.testing.assert_allclose(peaks_2, factor * peaks, rtol=1e-9)
     np.testing.assert_allclose(fixed_2, fixed, rtol=1e-9)
     assert (duration_2.total_s, duration_2.count) == (pytest.approx(duration.total_s, abs=1e-12), duration.count)
-    assert other.components[0].arias_m_s == pytest.approx(factor**2 * one.components[0].arias_m_s, rel=1e-9)
-    assert other.jma_intensity == pytest.approx(one.jma_intensity + 2 * np.log10(factor), abs=1e-9)
+    assert second.components[0].arias_m_s == pytest.approx(factor**2 * first.components[0].arias_m_s, rel=1e-9)
+    assert second.jma_intensity == pytest.approx(first.jma_intensity + 2 * np.log10(factor), abs=1e-9)
 
 
 @settings(max_examples=25, deadline=None)
 @given(WAVES)
 def test_measures_ignore_sign(wave):
     """Turning the sign of the ground changes nothing: two-sided thresholds, absolute peaks."""
-    one, other = (measure(three(w), threshold=1.0, conventions=PLAIN) for w in (wave, -wave))
-    assert one.components[0] == other.components[0]
-    assert one.horizontal.pga_m_s2 == other.horizontal.pga_m_s2
+    first, second = (measure(three(w), threshold=1.0, conventions=PLAIN) for w in (wave, -wave))
+    assert first.components[0] == second.components[0]
+    assert first.horizontal.pga_m_s2 == second.horizontal.pga_m_s2
 
 
 @settings(max_examples=25, deadline=None)
@@ -57,8 +57,8 @@ def test_measures_of_reversed_record_are_equal(wave):
     back = wave[::-1].copy()
     assert arias_intensity(back, DT) == pytest.approx(arias_intensity(wave, DT), rel=1e-12)
     assert significant_duration(back, DT) == pytest.approx(significant_duration(wave, DT), abs=1e-9)
-    one, other = duration_above(wave, DT, 1.0), duration_above(back, DT, 1.0)
-    assert (other.total_s, other.longest_s, other.count) == (pytest.approx(one.total_s), pytest.approx(one.longest_s), one.count)
+    first, second = duration_above(wave, DT, 1.0), duration_above(back, DT, 1.0)
+    assert (second.total_s, second.longest_s, second.count) == (pytest.approx(first.total_s), pytest.approx(first.longest_s), first.count)
 
 
 @settings(max_examples=25, deadline=None)
@@ -70,9 +70,9 @@ def test_leading_rest_only_delays_measures(wave, late):
     assert arias_intensity(shifted, DT) == pytest.approx(arias_intensity(wave, DT), rel=1e-12)
     assert significant_duration(shifted, DT) == pytest.approx(significant_duration(wave, DT), abs=1e-10)
     assert duration_above(shifted, DT, 1.0).total_s == pytest.approx(duration_above(wave, DT, 1.0).total_s, abs=1e-12)
-    one, other = peak_pulse(wave, DT), peak_pulse(shifted, DT)
-    assert other.start_s - one.start_s == pytest.approx(late * DT, abs=1e-10)
-    assert other.frequency_hz == pytest.approx(one.frequency_hz, rel=1e-9)
+    first, second = peak_pulse(wave, DT), peak_pulse(shifted, DT)
+    assert second.start_s - first.start_s == pytest.approx(late * DT, abs=1e-10)
+    assert second.frequency_hz == pytest.approx(first.frequency_hz, rel=1e-9)
 
 
 @settings(max_examples=25, deadline=None)

@@ -1,4 +1,4 @@
-"""What must hold of every rocking block, whatever the shaking."""
+"""Properties of every rocking block under any shaking."""
 
 import math
 
@@ -28,21 +28,21 @@ blocks = st.builds(
     st.floats(2.0, 8.0),
     st.sampled_from([0.0, 0.0, -0.3, 0.4]),
 )
-few = settings(max_examples=25, deadline=None)
+subset = settings(max_examples=25, deadline=None)
 
 
-@few
+@subset
 @given(shakings, blocks, st.booleans())
 def test_mirrored_block_and_motion_give_mirrored_rocking(a, block, linear):
     """The mirrored block under the mirrored motion gives the mirrored answer, bit by bit."""
     mirrored = Block(block.width, block.height, centroid_offset=-block.centroid_offset)
-    one, other = (solve_rock(b, Motion.from_arrays(x, 0.03), linear=linear) for x, b in ((a, block), (-a, mirrored)))
-    np.testing.assert_array_equal(one["rotation"], -other["rotation"])
-    assert one.outcome.impacts == other.outcome.impacts
-    assert one.outcome.overturning_time_s == other.outcome.overturning_time_s
+    first, second = (solve_rock(b, Motion.from_arrays(x, 0.03), linear=linear) for x, b in ((a, block), (-a, mirrored)))
+    np.testing.assert_array_equal(first["rotation"], -second["rotation"])
+    assert first.outcome.impacts == second.outcome.impacts
+    assert first.outcome.overturning_time_s == second.outcome.overturning_time_s
 
 
-@few
+@subset
 @given(shakings, blocks, st.floats(0.2, 9.0))
 def test_scaled_block_and_time_give_similar_rocking(a, block, length):
     """Length L and time sqrt(L): the same angles at the same samples, and the same forces per weight."""
@@ -56,7 +56,7 @@ def test_scaled_block_and_time_give_similar_rocking(a, block, length):
         assert large.outcome.max_friction_demand == pytest.approx(small.outcome.max_friction_demand, rel=1e-5)
 
 
-@few
+@subset
 @given(blocks, st.floats(0.1, 0.95), st.floats(-1.0, 1.0), st.booleans())
 def test_free_rocking_energy_never_grows(block, share, push, linear):
     """Without shaking, m R/I_O-scaled energy is kept between impacts and falls at each of them."""
@@ -78,19 +78,19 @@ def test_free_rocking_energy_never_grows(block, share, push, linear):
     assert np.all(np.diff(energy) <= 1e-12 * energy[0])
 
 
-@few
+@subset
 @given(shakings, blocks)
 def test_resampling_changes_no_rocking(a, block):
     """The same straight lines sampled twice as densely give the same answer."""
     fine = np.interp(np.arange(2 * a.size - 1) / 2, np.arange(a.size), a)
-    one, other = solve_rock(block, Motion.from_arrays(a, 0.03)), solve_rock(block, Motion.from_arrays(fine, 0.015))
-    assert one.outcome.overturned == other.outcome.overturned
-    assert other.outcome.max_rotation_rad == pytest.approx(one.outcome.max_rotation_rad, rel=1e-7, abs=1e-13)
-    if one.outcome.alpha_passed_s is not None:
-        assert other.outcome.alpha_passed_s == pytest.approx(one.outcome.alpha_passed_s, abs=1e-8)
+    first, second = solve_rock(block, Motion.from_arrays(a, 0.03)), solve_rock(block, Motion.from_arrays(fine, 0.015))
+    assert first.outcome.overturned == second.outcome.overturned
+    assert second.outcome.max_rotation_rad == pytest.approx(first.outcome.max_rotation_rad, rel=1e-7, abs=1e-13)
+    if first.outcome.alpha_passed_s is not None:
+        assert second.outcome.alpha_passed_s == pytest.approx(first.outcome.alpha_passed_s, abs=1e-8)
 
 
-@few
+@subset
 @given(shakings, blocks, st.floats(0.2, 2.0), st.booleans())
 def test_rock_many_equals_single_runs(a, block, scale, vertical):
     """The short way gives the verdict and the ratio of the long one."""
@@ -104,7 +104,7 @@ def test_rock_many_equals_single_runs(a, block, scale, vertical):
     assert short.max_rotation_ratio == pytest.approx(long.max_rotation_ratio, rel=1e-9, abs=1e-15)
 
 
-@few
+@subset
 @given(shakings, blocks)
 def test_motion_at_threshold_starts_no_rocking(a, block):
     """A motion scaled to the threshold itself does not start rocking: equality rests."""

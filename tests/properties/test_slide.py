@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from seisblock.bodies.sliding_base import sliding_base
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.models.slide.solve import SLIDING_PHASES, solve_slide
+from seisblock.models.slide.model import SlidePhase
+from seisblock.models.slide.solve import solve_slide
 from seisblock.records import Motion
 from seisblock.studies.sliding import slide_study
 
@@ -32,8 +33,8 @@ def test_mirrored_motion_gives_mirrored_slip(seed, mu, kappa):
     """On a level base the mirrored motion gives the mirrored slip, bit by bit."""
     motion = noise(seed)
     mirrored = Motion(motion.acceleration * [[-1.0], [1.0], [1.0]], motion.dt)
-    one, other = (solve_slide(sliding_base(mu, kappa=kappa), m, vertical=1.0) for m in (motion, mirrored))
-    np.testing.assert_array_equal(one["displacement"], -other["displacement"])
+    first, second = (solve_slide(sliding_base(mu, kappa=kappa), m, vertical=1.0) for m in (motion, mirrored))
+    np.testing.assert_array_equal(first["displacement"], -second["displacement"])
 
 
 @QUICK
@@ -43,10 +44,10 @@ def test_mirrored_slope_and_motion_give_mirrored_slip(seed, mu, kappa, slope):
     motion = noise(seed)
     mu += np.tan(np.radians(slope))
     mirrored = Motion(motion.acceleration * [[-1.0], [1.0], [1.0]], motion.dt)
-    one = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope, slope_length=0.01), motion, vertical=1.0).outcome
-    other = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=-slope, slope_length=0.01), mirrored, vertical=1.0).outcome
-    assert one.residual_slip_m == pytest.approx(-other.residual_slip_m, rel=1e-12, abs=1e-15)
-    assert one.fell_off_slope == other.fell_off_slope
+    first = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope, slope_length=0.01), motion, vertical=1.0).outcome
+    second = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=-slope, slope_length=0.01), mirrored, vertical=1.0).outcome
+    assert first.residual_slip_m == pytest.approx(-second.residual_slip_m, rel=1e-12, abs=1e-15)
+    assert first.fell_off_slope == second.fell_off_slope
 
 
 @QUICK
@@ -54,10 +55,10 @@ def test_mirrored_slope_and_motion_give_mirrored_slip(seed, mu, kappa, slope):
 def test_slip_scales_with_acceleration_and_gravity(seed, mu, kappa, factor):
     """Scaling ground acceleration and gravity together scales the slip."""
     motion = noise(seed)
-    one = solve_slide(sliding_base(mu, kappa=kappa), motion, gravity=9.8).outcome
-    other = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration * factor, motion.dt), gravity=9.8 * factor).outcome
-    assert other.max_slip_m == factor * one.max_slip_m
-    assert other.slip_start_s == one.slip_start_s
+    first = solve_slide(sliding_base(mu, kappa=kappa), motion, gravity=9.8).outcome
+    second = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration * factor, motion.dt), gravity=9.8 * factor).outcome
+    assert second.max_slip_m == factor * first.max_slip_m
+    assert second.slip_start_s == first.slip_start_s
 
 
 @QUICK
@@ -65,9 +66,9 @@ def test_slip_scales_with_acceleration_and_gravity(seed, mu, kappa, factor):
 def test_slip_depends_on_product_of_friction_and_gravity(seed, mu, kappa):
     """On a level base without vertical motion only mu g counts: twice the friction with half the gravity changes nothing."""
     motion = noise(seed)
-    one = solve_slide(sliding_base(mu, kappa=kappa), motion, vertical=False, gravity=9.8).outcome
-    other = solve_slide(sliding_base(2.0 * mu, kappa=kappa), motion, vertical=False, gravity=4.9).outcome
-    assert other == one
+    first = solve_slide(sliding_base(mu, kappa=kappa), motion, vertical=False, gravity=9.8).outcome
+    second = solve_slide(sliding_base(2.0 * mu, kappa=kappa), motion, vertical=False, gravity=4.9).outcome
+    assert second == first
 
 
 @QUICK
@@ -75,9 +76,9 @@ def test_slip_depends_on_product_of_friction_and_gravity(seed, mu, kappa):
 def test_slip_scales_with_square_of_time(seed, mu, kappa):
     """The same samples at twice the interval give four times the slip."""
     motion = noise(seed)
-    one = solve_slide(sliding_base(mu, kappa=kappa), motion).outcome
-    other = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration, 2.0 * motion.dt)).outcome
-    assert other.max_slip_m == pytest.approx(4.0 * one.max_slip_m, rel=1e-12, abs=1e-15)
+    first = solve_slide(sliding_base(mu, kappa=kappa), motion).outcome
+    second = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration, 2.0 * motion.dt)).outcome
+    assert second.max_slip_m == pytest.approx(4.0 * first.max_slip_m, rel=1e-12, abs=1e-15)
 
 
 @QUICK
@@ -88,10 +89,10 @@ def test_refined_record_gives_same_slip(seed, mu, kappa, slope):
     n = motion.samples
     fine = np.stack([np.interp(np.arange(3 * n - 2) / 3.0, np.arange(n), row) for row in motion.acceleration])
     mu += np.tan(np.radians(slope))
-    one = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope), motion, vertical=1.0).outcome
-    other = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope), Motion(fine, motion.dt / 3.0), vertical=1.0).outcome
-    assert other.residual_slip_m == pytest.approx(one.residual_slip_m, rel=1e-9, abs=1e-12)
-    assert other.max_slip_m == pytest.approx(one.max_slip_m, rel=1e-9, abs=1e-12)
+    first = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope), motion, vertical=1.0).outcome
+    second = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope), Motion(fine, motion.dt / 3.0), vertical=1.0).outcome
+    assert second.residual_slip_m == pytest.approx(first.residual_slip_m, rel=1e-9, abs=1e-12)
+    assert second.max_slip_m == pytest.approx(first.max_slip_m, rel=1e-9, abs=1e-12)
 
 
 @QUICK
@@ -108,8 +109,8 @@ def test_energy_lost_is_friction_work(seed, mu, kappa):
     middle = 0.5 * (v[:-1] + v[1:]) + h / 8.0 * (slope[:-1] - slope[1:])
     power = h / 6.0 * (a[:-1] * v[:-1] + 2.0 * (a[:-1] + a[1:]) * middle + a[1:] * v[1:])
     work = -power.sum()
-    lost = kappa * mu * 9.80665 * np.abs(np.diff(u)).sum()
-    assert work - lost == pytest.approx(0.5 * v[-1] ** 2, abs=1e-12 * max(1.0, lost))
+    missing = kappa * mu * 9.80665 * np.abs(np.diff(u)).sum()
+    assert work - missing == pytest.approx(0.5 * v[-1] ** 2, abs=1e-12 * max(1.0, missing))
 
 
 @QUICK
@@ -117,13 +118,13 @@ def test_energy_lost_is_friction_work(seed, mu, kappa):
 def test_slip_is_independent_of_ground_velocity(seed, mu, kappa, sample):
     """Starting the record at any instant of rest, whatever the ground's velocity is then, gives what is left of the slip."""
     motion = noise(seed)
-    whole = solve_slide(sliding_base(mu, kappa=kappa), motion)
-    names = np.array([phase.name for phase in whole.phases])[whole.phase_of_row()]
-    resting = [k for k in range(sample, motion.samples - 1) if (names[whole.time == k * motion.dt] == "stick").all()]
+    full = solve_slide(sliding_base(mu, kappa=kappa), motion)
+    names = np.array([phase.name for phase in full.phases])[full.phase_of_row()]
+    resting = [k for k in range(sample, motion.samples - 1) if (names[full.time == k * motion.dt] == "stick").all()]
     if resting:
-        before = whole["displacement"][whole.time == resting[0] * motion.dt][0]
+        before = full["displacement"][full.time == resting[0] * motion.dt][0]
         rest = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration[:, resting[0] :], motion.dt)).outcome
-        assert rest.residual_slip_m == pytest.approx(whole.outcome.residual_slip_m - before, abs=1e-13)
+        assert rest.residual_slip_m == pytest.approx(full.outcome.residual_slip_m - before, abs=1e-13)
 
 
 @QUICK
@@ -133,8 +134,8 @@ def test_slip_phase_has_one_sign_of_velocity(seed, mu, kappa):
     response = solve_slide(sliding_base(mu, kappa=kappa), noise(seed), vertical=1.0)
     names = np.array([phase.name for phase in response.phases])[response.phase_of_row()]
     v = response["velocity"]
-    assert (v[names == SLIDING_PHASES[0]] >= -1e-12).all()
-    assert (v[names == SLIDING_PHASES[1]] <= 1e-12).all()
+    assert (v[names == SlidePhase.FORWARD] >= -1e-12).all()
+    assert (v[names == SlidePhase.BACKWARD] <= 1e-12).all()
     assert (v[names == "stick"] == 0.0).all()
 
 
@@ -147,7 +148,7 @@ def test_slide_study_equals_single_runs(seed, kappa, slope, scale):
     length = 0.05 if slope else None
     points = slide_study([mu, 0.5], motion, kappa=kappa, slope_deg=slope, slope_length=length, vertical=[scale, 0.5], workers=1)
     for point in points:
-        alone = solve_slide(
+        single = solve_slide(
             sliding_base(point.mu, kappa=kappa, slope_deg=slope, slope_length=length), motion, vertical=point.vertical
         ).outcome
         for name in (
@@ -161,7 +162,7 @@ def test_slide_study_equals_single_runs(seed, kappa, slope, scale):
             "lifted_off",
             "slides_at_end",
         ):
-            assert getattr(point, name) == getattr(alone, name), name
+            assert getattr(point, name) == getattr(single, name), name
 
 
 @QUICK

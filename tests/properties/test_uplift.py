@@ -45,9 +45,9 @@ def test_natural_frequencies_equal_eigenvalues(alpha, beta):
 def test_eq_27_equals_modal_superposition(alpha, beta, damping, phi, rho, ratio, corner):
     """The corrected closed form gives the threshold of each corner, to 1e-10 of the largest response."""
     closed = harmonic_uplift_ratio([ratio], alpha=alpha, beta=beta, damping=damping, phi_deg=phi, rho_deg=rho, corner=corner)
-    every = uplift_thresholds(SpringBlock.from_ratios(alpha, beta, damping=damping), [ratio], phi_deg=phi, rho_deg=rho)[:, 0]
+    all_cases = uplift_thresholds(SpringBlock.from_ratios(alpha, beta, damping=damping), [ratio], phi_deg=phi, rho_deg=rho)[:, 0]
     # where the parts of a corner's motion cancel, their round-off is all that is left
-    assert abs(1.0 / closed[0] ** 2 - 1.0 / every[corner - 1] ** 2) <= 1e-10 / every.min() ** 2
+    assert abs(1.0 / closed[0] ** 2 - 1.0 / all_cases[corner - 1] ** 2) <= 1e-10 / all_cases.min() ** 2
 
 
 @given(blocks(), ANGLE, ANGLE, st.floats(0.1, 100.0))

@@ -12,10 +12,10 @@ Rows = Sequence[np.ndarray]
 DT = 0.01
 
 
-def fortran(values, each: int, form: str) -> str:
+def fortran(values, item: int, form: str) -> str:
     """Return numbers in lines of so many, each printed as Fortran does, without a zero before the point where there is no room."""
     cells = [format(value, form) for value in values]
-    return "".join("".join(cells[i : i + each]).rstrip(" ") + "\n" for i in range(0, len(cells), each))
+    return "".join("".join(cells[i : i + item]).rstrip(" ") + "\n" for i in range(0, len(cells), item))
 
 
 def _peak(row) -> tuple[float, float]:
@@ -124,8 +124,8 @@ def cwa(rows: Rows, *, event: bool = True, sequence: str = "Time U(+); N(+); E(+
         f"DataSequence: {sequence}",
         "Data: 4F10.3 ",
     ]
-    held = {"Time": DT * np.arange(len(up)), "U": up, "N": north, "E": east}
-    columns = [held[name] for name in sequence.replace("(+)", "").replace(";", "").split()]
+    holding = {"Time": DT * np.arange(len(up)), "U": up, "N": north, "E": east}
+    columns = [holding[name] for name in sequence.replace("(+)", "").replace(";", "").split()]
     body = "".join("".join(f"{x:10.3f}" for x in row) + "\n" for row in zip(*columns, strict=True))
     return "".join(f"#{line}\n" for line in ((text if event else []) + record)) + body
 
@@ -174,8 +174,8 @@ def _bare(value: float, width: int, decimals: int) -> str:
 
 def csmip(rows: Rows, *, volume: int = 2, names: Sequence[str] = ("90 Deg", "360 Deg", "Up"), places: Sequence[str] = ()) -> str:
     """Return channels in the layout of CSMIP, one behind the other; volume 2 in cm/s^2 with velocities and displacements, volume 1 in g."""
-    where = places or [""] * len(names)
-    return "".join(_csmip(row, i + 1, names[i], where[i], volume, len(rows)) for i, row in enumerate(rows))
+    place = places or [""] * len(names)
+    return "".join(_csmip(row, i + 1, names[i], place[i], volume, len(rows)) for i, row in enumerate(rows))
 
 
 def _csmip(row, number: int, name: str, place: str, volume: int, count: int) -> str:

@@ -110,3 +110,19 @@ def test_much_shorter_component_is_rejected(tmp_path):
     cut.write_text("\n".join(cut.read_text().replace("NPTS=   1000", "NPTS=    500").split("\n")[:104]))
     with pytest.raises(RecordError, match="UD 500"):
         read(tmp_path / "RSN1690_NORTH151_SYL090-hor1.AT2")
+
+
+@pytest.mark.parametrize(
+    ("title", "station", "code"),
+    [
+        ("EVENT, SOMEWHERE, 360", "SOMEWHERE", "NS"),
+        ("EVENT, 1/1/80, SOMEWHERE, NEAR BY, 090", "SOMEWHERE, NEAR BY", "EW"),
+        ("EVENT, SOMEWHERE, NO DIRECTION", "quake_som", "NS"),
+    ],
+)
+def test_title_of_three_or_more_fields_gives_station_and_direction(tmp_path, title, station, code):
+    """The last field is the direction if it is one, else the name of the file is used."""
+    path = tmp_path / "quake_som360.AT2"
+    path.write_text(f"PEER\n{title}\nACCELERATION IN UNITS OF G\nNPTS= 5, DT= .01 SEC\n 0.1 0.2 0.3 0.1 0.0\n")
+    record = read(path)
+    assert (record.station, record.codes) == (station, (code,))

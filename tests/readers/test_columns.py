@@ -167,7 +167,7 @@ def test_unknown_columns_are_rejected_by_name(table, header, error, says):
 
 
 def test_units_option_makes_unknown_columns_channels(table):
-    """Where no name is a direction, the option says that all columns are accelerations: they keep their names."""
+    """With `units`, columns without a direction are accelerations and keep their names."""
     assert codes(read(table("time,table,base,top"), units="gal")) == [("TABLE", None), ("BASE", None), ("TOP", None)]
     assert codes(read(table("time,sensor A (gal),sensor B (gal),c (gal)"))) == [("SENSOR A", None), ("SENSOR B", None), ("C", None)]
 
@@ -195,8 +195,8 @@ def test_plot_export_headings_give_time_and_units(table):
 @pytest.mark.parametrize("first", [0.0, 37.25])
 def test_coarsely_printed_times_are_even(dt, form, first):
     """Six significant digits, or four decimals, hide a clock of 800 Hz after 100 s; within the digits printed it is even."""
-    written = [form.format(first + i * dt) for i in range(120_000)]
-    assert sampling_interval("t", np.array([float(text) for text in written]), lambda: written) == pytest.approx(dt, rel=1e-12)
+    items = [form.format(first + i * dt) for i in range(120_000)]
+    assert sampling_interval("t", np.array([float(text) for text in items]), lambda: items) == pytest.approx(dt, rel=1e-12)
 
 
 @pytest.mark.parametrize("form", ["{:.2f}", "{:.3f}", "{:.6g}"])
@@ -204,10 +204,10 @@ def test_coarsely_printed_times_are_even(dt, form, first):
 @pytest.mark.parametrize("row", [1, 500, 3000, 5998])
 def test_missing_or_repeated_line_is_found_in_coarse_times(form, spoil, row):
     """However few digits are printed, a line that is missing or stands twice is refused, with its place."""
-    written = [form.format(i * 0.01) for i in range(6000)]
-    written[row : row + 1] = [] if spoil == "missing" else [written[row]] * 2
+    items = [form.format(i * 0.01) for i in range(6000)]
+    items[row : row + 1] = [] if spoil == "missing" else [items[row]] * 2
     with pytest.raises(InputError, match="line missing or duplicate"):
-        sampling_interval("t", np.array([float(text) for text in written]), lambda: written)
+        sampling_interval("t", np.array([float(text) for text in items]), lambda: items)
 
 
 @pytest.mark.parametrize("separator", [",", "\t", " "])

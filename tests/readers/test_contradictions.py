@@ -20,8 +20,8 @@ def doubts(tmp_path, data, **options):
     """Return the kinds of doubt about a file, and all that is said of them."""
     path = tmp_path / "spoilt"
     path.write_bytes(data)
-    found = read(path, **options).doubts
-    return {doubt.kind for doubt in found}, " ".join(doubt.message for doubt in found)
+    flags = read(path, **options).doubts
+    return {doubt.kind for doubt in flags}, " ".join(doubt.message for doubt in flags)
 
 
 @pytest.mark.parametrize("kind", FORMATS)
@@ -36,8 +36,8 @@ def test_sac_header_extremes_are_checked(word, tmp_path):
     """DEPMIN, DEPMAX and DEPMEN are words 1, 2 and 56."""
     data = bytearray(FORMATS["sac"].data)
     data[4 * word : 4 * word + 4] = np.float32(4321.0).tobytes()
-    kinds, told = doubts(tmp_path, bytes(data), **MM)
-    assert kinds == {"header"} and "4321" in told
+    kinds, text = doubts(tmp_path, bytes(data), **MM)
+    assert kinds == {"header"} and "4321" in text
 
 
 def test_undefined_sac_header_is_not_checked(tmp_path):
@@ -52,8 +52,8 @@ def test_miniseed_integration_constant_is_checked(tmp_path):
     """Steim's own check, of which obspy only warns: a difference in the middle of the block moved all later samples."""
     data = bytearray(FORMATS["mseed"].data)
     data[300] ^= 1
-    kinds, told = doubts(tmp_path, bytes(data), **MM)
-    assert "header" in kinds and "integrity" in told
+    kinds, text = doubts(tmp_path, bytes(data), **MM)
+    assert "header" in kinds and "integrity" in text
 
 
 @pytest.mark.parametrize("change", [lambda rows: rows[::-1], lambda rows: [*rows[:-1], rows[-2]]])
@@ -65,8 +65,8 @@ def test_tspair_times_are_checked(change, tmp_path):
 
 def test_slist_count_is_checked(tmp_path):
     """SLIST: a number more than the header says."""
-    kinds, told = doubts(tmp_path, FORMATS["slist"].data + b"1\n", **MM)
-    assert "count" in kinds and "601" in told
+    kinds, text = doubts(tmp_path, FORMATS["slist"].data + b"1\n", **MM)
+    assert "count" in kinds and "601" in text
 
 
 def _rows(count=40):
@@ -96,8 +96,8 @@ def test_lost_decimal_point_is_flagged(layout, tmp_path):
     """One line of 100 without points: told with its line, though its samples may be no spikes."""
     rows = _rows(100)
     assert "point" not in doubts(tmp_path, LAYOUTS[layout](rows))[0]
-    kinds, told = doubts(tmp_path, LAYOUTS[layout](_lost(rows)))
-    assert "point" in kinds and re.search(r"3 number\(s\) without a decimal point \(first: -0187 in line \d+\)", told)
+    kinds, text = doubts(tmp_path, LAYOUTS[layout](_lost(rows)))
+    assert "point" in kinds and re.search(r"3 number\(s\) without a decimal point \(first: -0187 in line \d+\)", text)
 
 
 def test_integers_in_float_table_are_not_flagged(tmp_path):
@@ -135,7 +135,7 @@ def test_jma_time_beyond_calendar_is_rejected(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "changes", "told"),
+    ("name", "changes", "text"),
     [
         ("NIG0990410231756.NS", {}, "file name (NIG099) and header (NIG019) disagree"),
         ("NIG0190410231756.EW", {}, "file name (EW) and header (NS) disagree"),
@@ -145,11 +145,11 @@ def test_jma_time_beyond_calendar_is_rejected(tmp_path):
         ("any.NS", {"Long.": "1388.70"}, "epicentre coordinate 1388.7 degrees"),
     ],
 )
-def test_knet_header_contradicting_file_name_is_flagged(name, changes, told, tmp_path):
+def test_knet_header_contradicting_file_name_is_flagged(name, changes, text, tmp_path):
     """Another component or station than the file is named for, another year than the earthquake's, a place beyond the pole."""
     (tmp_path / name).write_text(knet(COUNTS, duration="6", **changes))
-    found = read(tmp_path / name).doubts
-    assert [doubt.kind for doubt in found] == ["header"] and told in found[0].message
+    flags = read(tmp_path / name).doubts
+    assert [doubt.kind for doubt in flags] == ["header"] and text in flags[0].message
 
 
 @pytest.mark.parametrize("name", ["NIG0190410231756.NS", "nig0190410231756.ns", "renamed.NS", "a copy of it.txt"])
@@ -190,11 +190,11 @@ def test_column_with_two_units_is_rejected(column, tmp_path):
         doubts(tmp_path, FORMATS["comma"].data.replace(b"NS (gal)", column.encode()))
 
 
-@pytest.mark.parametrize(("more", "what"), [("NPTS=  500, ", "NPTS"), ("DT=   .0200 SEC, ", "DT")])
-def test_at2_header_with_duplicate_entries_is_rejected(more, what, tmp_path):
+@pytest.mark.parametrize(("extra", "quantity"), [("NPTS=  500, ", "NPTS"), ("DT=   .0200 SEC, ", "DT")])
+def test_at2_header_with_duplicate_entries_is_rejected(extra, quantity, tmp_path):
     """The first one was believed."""
     with pytest.raises(RecordFormatError, match="found several"):
-        doubts(tmp_path, FORMATS["at2"].data.replace(f"{what}=".encode(), f"{more}{what}=".encode()))
+        doubts(tmp_path, FORMATS["at2"].data.replace(f"{quantity}=".encode(), f"{extra}{quantity}=".encode()))
 
 
 @pytest.mark.parametrize(
@@ -209,8 +209,8 @@ def test_at2_header_with_duplicate_entries_is_rejected(more, what, tmp_path):
 )
 def test_table_contradicting_its_comments_is_flagged(comment, kind, tmp_path):
     """Interval, count and unit above the numbers; with dt and npts the file is no AT2 for that."""
-    kinds, told = doubts(tmp_path, comment.encode() + b"\n" + FORMATS["comma"].data)
-    assert kinds == {kind} and "a comment" in told
+    kinds, text = doubts(tmp_path, comment.encode() + b"\n" + FORMATS["comma"].data)
+    assert kinds == {kind} and "a comment" in text
 
 
 @pytest.mark.parametrize("comment", ["# npts = 600, dt = 0.01", "# sampling rate: 100 Hz; unit: gal", "# dt = 10 ms, 2 m/s2 at most"])

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from seisblock.core.errors import InputError, ParameterError, RecordError, UnitError
-from seisblock.measures.intensity import jma_intensity
 from seisblock.readers import read
+from seisblock.records.seismic_intensity import jma_intensity
 from seisblock.records.site import format_local_time, get_earthquake, get_site
 from tests.fuzz.formats import ROWS
 from tests.readers import layouts
 
-WHOLE = layouts.cwa(ROWS)
+FULL = layouts.cwa(ROWS)
 
 
 @pytest.fixture
@@ -72,8 +72,8 @@ def test_cwa_columns_follow_sequence_line(file):
 )
 def test_cwa_header_contradictions_are_flagged(file, old, new, kind, says):
     """Another length, another extreme, or none that can be read."""
-    assert old in WHOLE
-    (doubt,) = read(file(WHOLE.replace(old, new))).doubts
+    assert old in FULL
+    (doubt,) = read(file(FULL.replace(old, new))).doubts
     assert doubt.kind == kind
     assert says in doubt.message
 
@@ -95,14 +95,14 @@ def test_cwa_header_contradictions_are_flagged(file, old, new, kind, says):
 )  # fmt: skip
 def test_cwa_unknown_entries_are_rejected_with_line(file, old, new, says):
     """A sign, a letter, a unit, a rate, a time."""
-    assert old in WHOLE
+    assert old in FULL
     with pytest.raises(RecordError, match=says):
-        read(file(WHOLE.replace(old, new)))
+        read(file(FULL.replace(old, new)))
 
 
 def test_options_contradicting_cwa_header_are_rejected(file):
     """As with every format that says its unit and its interval."""
-    path = file(WHOLE)
+    path = file(FULL)
     assert read(path, units="gal", dt=0.01, format="CWB").codes == ("NS", "EW", "UD")
     with pytest.raises(UnitError, match="header unit gal contradicts"):
         read(path, units="g")
@@ -114,17 +114,15 @@ def test_options_contradicting_cwa_header_are_rejected(file):
 def test_truncated_cwa_file_is_rejected_or_flagged(file, share):
     """Wherever it ends."""
     try:
-        record = read(file(WHOLE[: int(share * len(WHOLE))]))
+        record = read(file(FULL[: int(share * len(FULL))]))
     except InputError:
         return
     assert "count" in {doubt.kind for doubt in record.doubts}
 
 
-@pytest.mark.parametrize(
-    ("written", "start"), [("", None), ("2020-01-02T03:04:05.250", datetime(2020, 1, 2, 3, 4, 5, 250_000, tzinfo=UTC))]
-)
-def test_cwa_start_time_is_optional_or_iso(file, written, start):
+@pytest.mark.parametrize(("output", "start"), [("", None), ("2020-01-02T03:04:05.250", datetime(2020, 1, 2, 3, 4, 5, 250_000, tzinfo=UTC))])
+def test_cwa_start_time_is_optional_or_iso(file, output, start):
     """An empty StartTime costs the start and not the record; one with a T is read as it stands."""
-    text = layouts.cwa(ROWS, event=False).replace("2020/01/02-03:04:05.250", written)
-    assert written in text and "2020/01/02-" not in text
+    text = layouts.cwa(ROWS, event=False).replace("2020/01/02-03:04:05.250", output)
+    assert output in text and "2020/01/02-" not in text
     assert read(file(text)).start == start

@@ -14,7 +14,7 @@ from tests.readers.files import JMA_BODY, JMA_HEADER, KIK_CSV, KNET_CSV, KOBE, k
 
 AT2 = "PEER\nEvent, 1/1/2000, Place, 90\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=  6, DT= .0100 SEC\n.1 .2 .3 .4 .5\n.6\n"
 TABLE = "time,NS (gal),EW (gal)\n" + "".join(f"{i / 100:.2f},{i},2\n" for i in range(20))
-WHOLE = {
+FULL = {
     "jma": (JMA_HEADER + JMA_BODY).encode("cp932"),
     "kobe": KOBE.encode(),
     "knet": knet().encode(),
@@ -27,16 +27,16 @@ WHOLE = {
 SPOILERS = [b"", b"\n", b",", b"nan", b"-1e999", b"\x00", b"\xff", b"#", b'"', b"=", b"0", b"x"]
 
 
-@pytest.mark.parametrize("kind", WHOLE)
+@pytest.mark.parametrize("kind", FULL)
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_damaged_file_gives_record_or_input_error(tmp_path, kind, data):
     """Cut anywhere, spoilt anywhere, bytes lost anywhere: a record, or an InputError in one line that names the file."""
-    whole = WHOLE[kind]
-    start = data.draw(st.integers(0, min(len(whole), 1200)), label="from")
-    lost = data.draw(st.integers(0, 40), label="lost")
+    full = FULL[kind]
+    start = data.draw(st.integers(0, min(len(full), 1200)), label="from")
+    missing = data.draw(st.integers(0, 40), label="lost")
     cut = data.draw(st.sampled_from([None, start + 1]), label="cut")
-    damaged = (whole[:start] + data.draw(st.sampled_from(SPOILERS), label="spoiler") + whole[start + lost :])[:cut]
+    damaged = (full[:start] + data.draw(st.sampled_from(SPOILERS), label="spoiler") + full[start + missing :])[:cut]
     _try(tmp_path, damaged)
 
 

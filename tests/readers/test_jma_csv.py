@@ -100,9 +100,11 @@ def test_overwritten_jma_samples_are_flagged_and_kept(tmp_path):
     assert read("synthetic_jma.csv").doubts == ()
     lines[7 + 3000 : 7 + 3050] = lines[7 + 3200 : 7 + 3250]
     record = read(write(tmp_path, "\r\n".join(lines)))
-    told = [doubt for doubt in record.doubts if doubt.component == "NS"]
-    assert [doubt.kind for doubt in told] == ["jump"]
-    assert "1 isolated step(s) (at 30.00 s)" in told[0].message and "2015-12-04" in told[0].message
+    flags = [doubt for doubt in record.doubts if doubt.component == "NS"]
+    assert [doubt.kind for doubt in flags] == ["repetition", "jump"]
+    # the original of the piece comes after it
+    assert "1 interval(s) repeat earlier samples exactly (from 32.00 s, up to 0.5 s, as those 2 s before)" in flags[0].message
+    assert "1 isolated step(s) (at 30.00 s)" in flags[1].message and "2015-12-04" in flags[1].message
     ns = record.component("NS").acceleration
     np.testing.assert_array_equal(ns[3000:3050], ns[3200:3250])
 
@@ -121,5 +123,5 @@ def test_overwritten_jma_samples_are_flagged_and_kept(tmp_path):
 )
 def test_truncated_jma_file_is_flagged(tmp_path, spoil, kinds):
     """JMA ends every line and publishes whole seconds: what does not is told."""
-    whole = sample_path("synthetic_jma.csv").read_bytes().decode("cp932")
-    assert [doubt.kind for doubt in read(write(tmp_path, spoil(whole))).doubts if doubt.kind in ("cut", "count")] == kinds
+    full = sample_path("synthetic_jma.csv").read_bytes().decode("cp932")
+    assert [doubt.kind for doubt in read(write(tmp_path, spoil(full))).doubts if doubt.kind in ("cut", "count")] == kinds

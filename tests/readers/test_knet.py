@@ -25,10 +25,10 @@ def deviation_gal(component):
 def test_knet_samples_reproduce_header_maximum(source):
     """max|a - mean| is the header's Max. Acc. to 0.001 gal: scale factor applied, all samples there."""
     record = read(source)
-    told = record.metadata["header_max_gal"]
-    assert set(told) == set(record.codes)
+    text = record.metadata["header_max_gal"]
+    assert set(text) == set(record.codes)
     for component in record.components:
-        assert deviation_gal(component) == pytest.approx(told[component.code], abs=0.001)
+        assert deviation_gal(component) == pytest.approx(text[component.code], abs=0.001)
     assert "warnings" not in record.metadata
 
 
@@ -103,12 +103,12 @@ def test_knet_header_variants_are_accepted(tmp_path):
 
 
 def test_wrong_knet_header_maximum_is_flagged(tmp_path):
-    """When the samples do not reach what the header says, the record is read and the difference told."""
+    """A record whose peak differs from the header is read and flagged."""
     path = tmp_path / "a.NS"
     path.write_text(knet(maximum="99.9"))
-    found = read(path).doubts
-    assert [doubt.kind for doubt in found if doubt.kind != "offset"] == ["header"]
-    assert "99.9" in found[0].message
+    flags = read(path).doubts
+    assert [doubt.kind for doubt in flags if doubt.kind != "offset"] == ["header"]
+    assert "99.9" in flags[0].message
 
 
 @pytest.mark.parametrize(
@@ -215,6 +215,6 @@ def test_damaged_knet_csv_is_rejected(tmp_path, text, says):
 
 def test_knet_bundle_equals_its_files():
     """The bundle gives what its three files give, sample by sample."""
-    one, other = read(sample_path("synthetic_knet.UD")), read("synthetic_knet.knt.tar.gz")
-    for code in one.codes:
-        np.testing.assert_array_equal(one.component(code).acceleration, other.component(code).acceleration)
+    first, second = read(sample_path("synthetic_knet.UD")), read("synthetic_knet.knt.tar.gz")
+    for code in first.codes:
+        np.testing.assert_array_equal(first.component(code).acceleration, second.component(code).acceleration)

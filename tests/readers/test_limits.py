@@ -1,4 +1,4 @@
-"""What is read has a price: archives that unpack for ever, devices and endless pipes are refused, with the number and what lifts it."""
+"""Limits of reading: archive bombs, devices and endless pipes are rejected, with the number and the variable that raises it."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_declared_member_size_is_checked_first(tmp_path, set_limits):
 
 @pytest.mark.parametrize("packer", [gzip, bz2, lzma])
 def test_unpacked_bytes_are_counted(packer, tmp_path, set_limits):
-    """What is unpacked is counted, whatever was declared."""
+    """Unpacked bytes are counted, whatever size was declared."""
     set_limits(mib=1)
     path = tmp_path / "bomb.csv.gz"
     path.write_bytes(packer.compress(b"0" * 3 * 2**20))
@@ -144,7 +144,7 @@ def test_devices_are_rejected():
 
 
 def test_endless_pipe_is_read_up_to_limit(tmp_path, set_limits):
-    """What comes out of a pipe is read as far as the budget goes."""
+    """A pipe is read up to the limit."""
     set_limits(mib=1)
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
@@ -160,9 +160,9 @@ def test_zip_with_missing_byte_gives_record_or_input_error(tmp_path):
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         archive.writestr("a.NS", knet())
-    whole, path = buffer.getvalue(), tmp_path / "a.zip"
-    for lost in [*range(60), *range(len(whole) - 110, len(whole))]:
-        path.write_bytes(whole[:lost] + whole[lost + 1 :])
+    full, path = buffer.getvalue(), tmp_path / "a.zip"
+    for missing in [*range(60), *range(len(full) - 110, len(full))]:
+        path.write_bytes(full[:missing] + full[missing + 1 :])
         try:
             read(path)
         except RecordError as error:
@@ -172,22 +172,22 @@ def test_zip_with_missing_byte_gives_record_or_input_error(tmp_path):
 def test_measure_reads_standard_input():
     """``seisblock measure -`` reads what is piped in, whatever its format."""
     data = (JMA_HEADER + JMA_BODY).encode("cp932")
-    found = CliRunner().invoke(main, ["measure", "-", "--json", "--quiet"], input=data)
-    assert found.exit_code == 0, found.output
-    assert '"source":"standard input"' in found.stdout.replace(": ", ":")
+    result = CliRunner().invoke(main, ["measure", "-", "--json", "--quiet"], input=data)
+    assert result.exit_code == 0, result.output
+    assert '"source":"standard input"' in result.stdout.replace(": ", ":")
     empty = CliRunner().invoke(main, ["measure", "-"], input=b"")
     assert (empty.exit_code, "standard input: empty file" in empty.stderr) == (3, True)
 
 
 def test_csv_to_stdout_writes_table_only():
     """``--csv -`` writes the table to stdout and nothing else; what would also go there is refused."""
-    found = CliRunner().invoke(main, ["measure", "synthetic_jma", "--csv", "-", "--quiet", "--component", "NS"])
-    assert found.stdout.splitlines()[0] == "time_s,NS_acceleration_m_s2,NS_velocity_m_s,NS_displacement_m"
-    assert len(found.stdout.splitlines()) == 6001
+    completed = CliRunner().invoke(main, ["measure", "synthetic_jma", "--csv", "-", "--quiet", "--component", "NS"])
+    assert completed.stdout.splitlines()[0] == "time_s,NS_acceleration_m_s2,NS_velocity_m_s,NS_displacement_m"
+    assert len(completed.stdout.splitlines()) == 6001
     for words in (["--json"], ["--plot", "-"]):
-        both = CliRunner().invoke(main, ["measure", "synthetic_jma", "--csv", "-", *words])
-        assert both.exit_code == 3
-        assert "writes to stdout, which takes one output: omit" in both.stderr
+        result = CliRunner().invoke(main, ["measure", "synthetic_jma", "--csv", "-", *words])
+        assert result.exit_code == 3
+        assert "writes to stdout, which takes one output: omit" in result.stderr
 
 
 def test_station_all_gives_record_per_station(tmp_path):
@@ -200,7 +200,7 @@ def test_station_all_gives_record_per_station(tmp_path):
     path.write_bytes(tar({"event.knt.tar.gz": tar(files, mode="w:gz")}))
     records = read_all([path], station="all")
     assert [(r.station, r.codes) for r in records] == [("NIG019", ("NS", "EW", "UD")), ("NIG017", ("NS", "EW", "UD"))]
-    found = CliRunner().invoke(main, ["measure", str(path), "--station", "all", "--json", "--quiet"])
-    assert found.stdout.count('"record_index"') == 6
+    result = CliRunner().invoke(main, ["measure", str(path), "--station", "all", "--json", "--quiet"])
+    assert result.stdout.count('"record_index"') == 6
     with pytest.raises(RecordError, match="2 stations, but one record is needed"):
         read(path, station="all")

@@ -38,15 +38,15 @@ def small_pieces(request, monkeypatch):
 def test_chunked_lines_equal_whole_text(text, encoding, small_pieces):
     """All of them, one by one, from both ends, in slices of slices, and changed."""
     blob = RawFile("x", text.encode(encoding))
-    whole, found = decode_text(blob).split("\n"), read_lines(blob)
-    assert isinstance(found, LazyLines) and len(found) == len(whole) and list(found) == whole
-    assert [found[i] for i in range(-len(whole), len(whole))] == whole * 2
-    for begin in range(len(whole)):
-        assert list(found[begin:]) == whole[begin:]
-        assert list(found[begin : len(whole) - 1][1:]) == whole[begin : len(whole) - 1][1:]
-    assert list(map_lines(map_lines(found, str.strip), lambda line: line + "!")) == [line.strip() + "!" for line in whole]
+    full, result = decode_text(blob).split("\n"), read_lines(blob)
+    assert isinstance(result, LazyLines) and len(result) == len(full) and list(result) == full
+    assert [result[i] for i in range(-len(full), len(full))] == full * 2
+    for begin in range(len(full)):
+        assert list(result[begin:]) == full[begin:]
+        assert list(result[begin : len(full) - 1][1:]) == full[begin : len(full) - 1][1:]
+    assert list(map_lines(map_lines(result, str.strip), lambda line: line + "!")) == [line.strip() + "!" for line in full]
     with pytest.raises(IndexError):
-        found[len(whole)]
+        result[len(full)]
 
 
 def test_binary_content_is_rejected(small_pieces):
@@ -73,10 +73,10 @@ def test_chunked_table_gives_same_record(text, tmp_path, monkeypatch):
     path.write_text(text, encoding="utf-8")
     options = {} if "gal" in text else {"units": "gal"}
     options |= {} if "time" in text else {"dt": 0.01}
-    whole = read(path, **options)
+    full = read(path, **options)
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     monkeypatch.setattr(pieces, "CHUNK_LINES", 7)
-    same(read(path, **options), whole)
+    same(read(path, **options), full)
 
 
 def test_table_is_read_chunk_by_chunk(tmp_path, monkeypatch):
@@ -85,20 +85,20 @@ def test_table_is_read_chunk_by_chunk(tmp_path, monkeypatch):
     path.write_text("NS (gal)\n" + "".join(f"{k % 7}.5\n" for k in range(1000)), encoding="utf-8")
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     monkeypatch.setattr(pieces, "CHUNK_LINES", 100)
-    made = []
+    collected = []
     original = LazyLines._chunk
-    monkeypatch.setattr(LazyLines, "_chunk", lambda self, number: made.append(number) or original(self, number))
+    monkeypatch.setattr(LazyLines, "_chunk", lambda self, number: collected.append(number) or original(self, number))
     read(path, dt=0.01)
-    assert len(made) < 20 * 11
+    assert len(collected) < 20 * 11
 
 
 @pytest.mark.slow
 def test_chunked_jma_file_gives_same_record(monkeypatch):
     """Samples, header and doubts."""
-    whole = read(sample_path("synthetic_jma.csv"))
+    full = read(sample_path("synthetic_jma.csv"))
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     monkeypatch.setattr(pieces, "CHUNK_LINES", 999)
-    same(read(sample_path("synthetic_jma.csv")), whole)
+    same(read(sample_path("synthetic_jma.csv")), full)
 
 
 @pytest.mark.parametrize(("line", "cell"), [(33, "1.0,2.0,3.0"), (34, "one,2.0"), (35, "1.0")], ids=["more", "text", "less"])
@@ -112,14 +112,14 @@ def test_error_line_number_is_independent_of_chunks(line, cell, tmp_path, small_
         read(path, dt=0.01)
 
 
-def same(found, expected):
+def same(result, expected):
     """Assert that two records are one."""
-    assert found.codes == expected.codes and found.dt == expected.dt
-    for one, other in zip(found.components, expected.components, strict=True):
-        np.testing.assert_array_equal(one.acceleration, other.acceleration)
-        assert not one.acceleration.flags.writeable
-    assert (found.history, found.metadata, found.start) == (expected.history, expected.metadata, expected.start)
-    assert [astuple(doubt) for doubt in found.doubts] == [astuple(doubt) for doubt in expected.doubts]
+    assert result.codes == expected.codes and result.dt == expected.dt
+    for first, second in zip(result.components, expected.components, strict=True):
+        np.testing.assert_array_equal(first.acceleration, second.acceleration)
+        assert not first.acceleration.flags.writeable
+    assert (result.history, result.metadata, result.start) == (expected.history, expected.metadata, expected.start)
+    assert [astuple(doubt) for doubt in result.doubts] == [astuple(doubt) for doubt in expected.doubts]
 
 
 def test_columns_with_different_units_are_converted(tmp_path):
@@ -136,9 +136,9 @@ def test_large_file_is_read_on_demand(tmp_path, monkeypatch):
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"
     path.write_bytes(bytes(range(32, 59)))
-    spent = ReadBudget()
-    blob = open_source(path, spent)
-    assert isinstance(blob.content, FileBytes) and spent.bytes_read == 27
+    duration = ReadBudget()
+    blob = open_source(path, duration)
+    assert isinstance(blob.content, FileBytes) and duration.bytes_read == 27
     assert blob.data == path.read_bytes() and blob.content[3:9] == path.read_bytes()[3:9] and blob.content[-2:] == path.read_bytes()[-2:]
     assert sha256_digest([blob]) == hashlib.sha256(path.read_bytes()).hexdigest()
 

@@ -50,15 +50,15 @@ def test_nested_bundle_requires_station(tmp_path):
 @pytest.mark.parametrize(("suffix", "pack"), [("gz", gzip.compress), ("bz2", bz2.compress), ("xz", lzma.compress)])
 def test_other_compression_formats_are_unpacked(suffix, pack, tmp_path):
     """A bundle, and a lone file; one that was cut is damaged."""
-    bundle, alone = tmp_path / f"event.knt.tar.{suffix}", tmp_path / f"mine.csv.{suffix}"
+    bundle, single = tmp_path / f"event.knt.tar.{suffix}", tmp_path / f"mine.csv.{suffix}"
     bundle.write_bytes(tar(station_files("NIG019"), mode=f"w:{suffix}"))
     assert read(bundle).codes == ("NS", "EW", "UD")
     plain = "time,EW (gal)\n" + "".join(f"{0.01 * k:.2f},{k % 7}\n" for k in range(400))
-    alone.write_bytes(pack(plain.encode()))
-    assert read(alone).samples == 400
-    alone.write_bytes(pack(plain.encode())[:-20])
+    single.write_bytes(pack(plain.encode()))
+    assert read(single).samples == 400
+    single.write_bytes(pack(plain.encode())[:-20])
     with pytest.raises(RecordFormatError, match="archive damaged or encrypted"):
-        read(alone)
+        read(single)
 
 
 def test_zip_with_folders_gives_its_record(tmp_path):
@@ -82,7 +82,7 @@ def test_zip_with_folders_gives_its_record(tmp_path):
     ids=["no record", "plots only", "gzip cut short", "zip cut short"],
 )
 def test_bundle_without_record_or_damaged_is_rejected(tmp_path, data, says):
-    """What is in the bundle is told, or that it is damaged."""
+    """The error lists the contents of a bundle without a record, or says that it is damaged."""
     path = tmp_path / "bundle"
     path.write_bytes(data)
     with pytest.raises(RecordFormatError) as caught:
@@ -95,7 +95,7 @@ def test_missing_directory_and_empty_paths_are_rejected(tmp_path):
     with pytest.raises(RecordNotFoundError, match="no such file or bundled sample") as caught:
         read(tmp_path / "nothing.csv")
     assert isinstance(caught.value, FileNotFoundError)
-    with pytest.raises(RecordError, match="is a folder"):
+    with pytest.raises(RecordError, match="no record found in this folder"):
         read(tmp_path)
     for content in (b"", b"\r\n \n"):
         (tmp_path / "empty.csv").write_bytes(content)
@@ -140,14 +140,14 @@ def test_pickles_are_never_loaded(tmp_path):
 
 
 def test_miniseed_requires_unit(tmp_path):
-    """MiniSEED does not say its unit: refused without one, read with it, three channels as NS, EW, UD."""
+    """MiniSEED contains counts: refused without a response, read in a unit that the user states, three channels as NS, EW, UD."""
     stream = obspy.Stream()
     for channel in "ENZ":
         header = {"station": "ABC", "channel": f"HN{channel}", "delta": 0.01, "starttime": obspy.UTCDateTime(2020, 1, 1)}
         stream.append(obspy.Trace(np.arange(100, dtype=np.int32) * (1 + "ENZ".index(channel)), header=header))
     path = tmp_path / "a.mseed"
     stream.write(str(path), format="MSEED")
-    with pytest.raises(UnitError, match="give `units`"):
+    with pytest.raises(UnitError, match=r"counts, and their instrument response is missing.*sta=ABC&level=response"):
         read(path)
     record = read(path, units="gal")
     assert (record.format, record.station, record.codes, record.dt) == ("OBSPY:MSEED", "ABC", ("NS", "EW", "UD"), 0.01)
@@ -191,8 +191,8 @@ def test_several_files_give_records_in_order(tmp_path):
     assert [len(r.components) for r in records] == [3, 1, 1]
     with pytest.raises(ParameterError, match=r"a\.csv is given 2 times"):
         read_all([sample_path(), tmp_path / "a.csv", tmp_path / "a.csv"])
-    one = read([tmp_path / "a.csv"])
-    assert one.source == str(tmp_path / "a.csv")
+    first = read([tmp_path / "a.csv"])
+    assert first.source == str(tmp_path / "a.csv")
 
 
 def test_component_paths_together_give_one_record(tmp_path):
@@ -204,5 +204,5 @@ def test_component_paths_together_give_one_record(tmp_path):
     record = read([tmp_path / "ew.csv", tmp_path / "ns.csv"])
     assert record.codes == ("NS", "EW")
     assert record.sha256 == hashlib.sha256((tmp_path / "ew.csv").read_bytes() + (tmp_path / "ns.csv").read_bytes()).hexdigest()
-    with pytest.raises(RecordError, match="duplicate"):
+    with pytest.raises(RecordError, match="to distinguish them"):
         read([tmp_path / "ns.csv", tmp_path / "ns.csv"])

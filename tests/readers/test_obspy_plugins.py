@@ -79,8 +79,8 @@ def test_plugin_streams_are_in_m_s2_with_header(tmp_path, kind):
         assert trace.stats.starttime == obspy.UTCDateTime(record.start)
     key = kind.replace("kik", "knet").replace("-", "").replace("kobe", "jma").replace("jma", "jmacsv")
     assert trace.stats[key]["unit"] == "m/s2"
-    again = reads(io.BytesIO(data))
-    assert len(again) == len(stream)
+    repeat = reads(io.BytesIO(data))
+    assert len(repeat) == len(stream)
     trace.data += 1.0  # a stream is the caller's own
 
 
@@ -93,7 +93,7 @@ def test_entry_points_can_be_imported():
     metadata = {}
     module.Plugins(str(root), {}).update(metadata)
     groups = metadata["entry-points"]
-    assert set(groups["obspy.plugin.waveform"]) == {each.obspy_name for each in list_formats() if each.plugin}
+    assert set(groups["obspy.plugin.waveform"]) == {item.obspy_name for item in list_formats() if item.plugin}
     for name in groups["obspy.plugin.waveform"]:
         for target in groups[f"obspy.plugin.waveform.{name}"].values():
             module_name, function = target.split(":")

@@ -45,11 +45,11 @@ def test_samples_reproduce_header_peak(kind, tmp_path):
     path.write_bytes(WRITERS[kind](ROWS))
     record = read(path)
     assert record.doubts == ()
-    held = list(record.components)
-    rows = ROWS if len(held) == 3 else ROWS[:1]
+    holding = list(record.components)
+    rows = ROWS if len(holding) == 3 else ROWS[:1]
     if kind.startswith("csmip"):
         rows = [ROWS[1], ROWS[0], ROWS[2]]  # 90 degrees come first in the file
-    for component, row in zip(held, rows, strict=True):
+    for component, row in zip(holding, rows, strict=True):
         np.testing.assert_allclose(component.acceleration, row / 100.0, atol=DIGIT[kind], rtol=0)
     assert (record.dt, record.samples) == (0.01, 600)
     assert record.start in (datetime(2020, 1, 2, 3, 4, 5, 250_000, tzinfo=UTC), datetime(2020, 1, 2, 3, 4, 5, 200_000, tzinfo=UTC))
@@ -101,8 +101,8 @@ def test_azimuths_are_kept(tmp_path):
     """N10E and N80W are the azimuths 10 and 280; along north they act as their projections."""
     record = read(write_text_file(tmp_path, layouts.geonet(ROWS)))
     assert [(c.code, c.azimuth_deg) for c in record.components] == [("10", 10.0), ("280", 280.0), ("UD", None)]
-    one, other = (component.acceleration for component in record.horizontals)
-    north = np.cos(np.radians(10)) * one + np.cos(np.radians(280)) * other
+    first, second = (component.acceleration for component in record.horizontals)
+    north = np.cos(np.radians(10)) * first + np.cos(np.radians(280)) * second
     np.testing.assert_allclose(motion_of(record, "0").horizontal, north, atol=1e-12)
 
 
@@ -121,17 +121,17 @@ def test_down_component_is_inverted(tmp_path):
 
 def test_volume_2_gives_accelerations_only(tmp_path):
     """Velocities and displacements of other lengths lie between the channels and are passed over; V1 in g and V2 in cm/s^2 agree."""
-    one, two = (read(write_text_file(tmp_path, layouts.csmip(ROWS, volume=volume), f"v{volume}")) for volume in (1, 2))
+    first, two = (read(write_text_file(tmp_path, layouts.csmip(ROWS, volume=volume), f"v{volume}")) for volume in (1, 2))
     for code in ("NS", "EW", "UD"):
-        np.testing.assert_allclose(one.component(code).acceleration, two.component(code).acceleration, atol=2e-5)
+        np.testing.assert_allclose(first.component(code).acceleration, two.component(code).acceleration, atol=2e-5)
 
 
 def test_single_channel_file_finds_other_components(tmp_path):
     """One letter of the name tells the component; another station, or another time, under such a name is not taken."""
     for letter, row in zip("NEZ", ROWS, strict=True):
         write_text_file(tmp_path, layouts.esm(row, stream=f"HN{letter}"), f"SY.SYN1..HN{letter}.D.20200102.030400.C.ACC.ASC")
-    other = layouts.esm(ROWS[0], stream="HN1").replace("STATION_CODE: SYN1", "STATION_CODE: SYN2")
-    write_text_file(tmp_path, other, "SY.SYN1..HN1.D.20200102.030400.C.ACC.ASC")
+    second = layouts.esm(ROWS[0], stream="HN1").replace("STATION_CODE: SYN1", "STATION_CODE: SYN2")
+    write_text_file(tmp_path, second, "SY.SYN1..HN1.D.20200102.030400.C.ACC.ASC")
     record = read(tmp_path / "SY.SYN1..HNE.D.20200102.030400.C.ACC.ASC")
     assert record.codes == ("NS", "EW", "UD")
     for letter, azimuth, vertical, row in (("a", 360, 90, ROWS[0]), ("b", 0, 0, ROWS[2][:-1]), ("c", 270, 90, ROWS[1])):
@@ -154,8 +154,8 @@ def test_structure_locations_are_selected_as_stations(make, tmp_path):
     names = ("360 Deg", "90 Deg", "Up", "360 Deg", "90 Deg")
     if make is None:
         azimuths = (360, 90, 400, 360, 90)
-        told = zip(rows, azimuths, places, strict=True)
-        text = "".join(layouts.cosmos(row, azimuth=azimuth, structure=10, place=place[10:]) for row, azimuth, place in told)
+        directions = zip(rows, azimuths, places, strict=True)
+        text = "".join(layouts.cosmos(row, azimuth=azimuth, structure=10, place=place[10:]) for row, azimuth, place in directions)
     else:
         text = make(rows, names=names, places=places)
     path = write_text_file(tmp_path, text)
@@ -184,8 +184,8 @@ UNEVEN = V1_HEAD + "".join(f"{0.01 * i:7.3f}{x:7.3f}" * 1 + ("\n" if i % 5 == 4 
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (UNEVEN, "unevenly sampled pairs of time and acceleration .volume 1.: use volume 2"),
-        ("FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nEARTHQUAKE\n", "unevenly sampled data in USC format"),
+        (UNEVEN, "expected samples in g/10"),
+        ("FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nEARTHQUAKE\n", "expected samples in g/10"),
         ("RESPONSE AND FOURIER AMPLITUDE SPECTRA\nCORRECTED ACCELEROGRAM\n", "response spectra .volume 3.: use volume 2"),
         (layouts.cosmos(ROWS[0], title="Raw acceleration counts", level=0, unit=50), "raw counts .volume 0.: use volume 1 or 2"),
         (layouts.cosmos(ROWS[0], title="Velocity data"), "velocity: use the acceleration file"),
@@ -240,10 +240,28 @@ def test_adjacent_fixed_width_numbers_are_separated(tmp_path):
 def test_bundled_recordings_reproduce_header_peak(name, start):
     """GeoNet's Hanmer Springs and the Shafter record of the USGS: no doubt about their headers, the peaks that the manifest tells."""
     record = read(name)
-    told = next(sample.pga_gal for sample in list_samples() if sample.name.startswith(name))
+    text = next(sample.pga_gal for sample in list_samples() if sample.name.startswith(name))
     assert {code: 100.0 * float(np.abs(record.component(code).acceleration).max()) for code in record.codes} == pytest.approx(
-        told, abs=5e-4
+        text, abs=5e-4
     )
     assert not any(doubt.kind == "header" for doubt in record.doubts)
     assert record.start.isoformat().startswith(start)
     assert len(record.horizontals) == 2 and record.vertical is not None
+
+
+def test_read_cosmos_takes_an_integer_header_one_blank_short(tmp_path):
+    """Whole numbers are told apart without columns; a line with one number too few is refused."""
+    full = layouts.cosmos(ROWS[0])
+    lines = full.splitlines()
+    line = lines[next(index for index, line in enumerate(lines) if "Integer-header" in line) + 5]
+    path = tmp_path / "a.V2c"
+    path.write_text(full.replace(line, line.replace("    -999", "   -999", 1), 1))
+    np.testing.assert_array_equal(read(path).components[0].acceleration, _read_text(tmp_path, full).components[0].acceleration)
+    path.write_text(full.replace(line, line.rsplit(None, 1)[0], 1))
+    with pytest.raises(RecordFormatError, match="expected 10 numbers of 8 characters"):
+        read(path)
+
+
+def _read_text(folder, text):
+    (folder / "whole.V2c").write_text(text)
+    return read(folder / "whole.V2c")

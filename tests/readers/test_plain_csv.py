@@ -183,7 +183,7 @@ def test_other_quantities_are_ignored_and_reported(table):
 @settings(max_examples=60, deadline=None)
 @given(st.lists(st.floats(-50, 50, allow_subnormal=False), min_size=2, max_size=30))
 def test_samples_of_17_digits_round_trip(tmp_path_factory, values):
-    """What a file says to 17 digits in m/s^2 is what the solver sees, bit by bit."""
+    """Samples of 17 digits in m/s^2 reach the solver bit by bit."""
     path = tmp_path_factory.mktemp("exact") / "a.csv"
     path.write_text("NS (m/s2)\n" + "".join(f"{v!r}\n" for v in values))
     np.testing.assert_array_equal(read(path, dt=0.01).component("NS").acceleration, values)
@@ -258,7 +258,7 @@ def test_too_coarse_times_are_rejected_by_cause(table, dt, printed):
         ("time,NS (gal),N-S (gal)\n0,1,1\n0.01,2,2\n", {}, RecordFormatError, "several columns for NS"),
         ("time,NS (gal),EW (gal),foo\n0,1,2,3\n0.01,2,3,4\n", {}, RecordFormatError, "unknown column 'foo': expected a direction"),
         ("time (PST),NS (gal)\n0,1\n0.01,2\n", {}, UnitError, "unknown time unit 'PST'"),
-        ("abc def\n", {}, RecordFormatError, "unknown file format (begins with 'abc def'); expected PEER AT2"),
+        ("abc def\n", {}, RecordFormatError, "unknown file format (begins with 'abc def'); expected AFAD"),
         ("# only\n# comments\n", {}, RecordFormatError, "unknown file format (begins with '# only')"),
         (
             "Station: X\nDate: 2024\n\ntime (s),NS (gal)\n0,1\n0.01,2\n",
@@ -288,9 +288,9 @@ def test_invalid_table_is_rejected_in_one_sentence(table, text, options, error, 
 
 def test_empty_line_in_single_column_is_flagged(table):
     """In one column without a clock an empty line may be a lost sample; with a clock, or at the end, it is nothing."""
-    found = read(table("NS (gal)\n1\n2\n\n-3\n\n"), dt=0.01).doubts
-    assert [doubt.kind for doubt in found] == ["line"]
-    assert "1 empty line(s) among the samples (first: line 4)" in found[0].message
+    flags = read(table("NS (gal)\n1\n2\n\n-3\n\n"), dt=0.01).doubts
+    assert [doubt.kind for doubt in flags] == ["line"]
+    assert "1 empty line(s) among the samples (first: line 4)" in flags[0].message
     assert read(table("time,NS (gal)\n0,1\n\n0.01,-1\n")).doubts == ()
 
 
@@ -352,3 +352,14 @@ def test_clock_beyond_calendar_is_rejected(table, moment):
     rows = "".join(f"{moment}.{i:02d}-09:00,{i}\n" for i in range(4))
     with pytest.raises(InputError):
         read(table(f"time (JST),NS (gal)\n{rows}"))
+
+
+@pytest.mark.parametrize(("dt", "accepted"), [(0.01, True), (0.0100009, True), (0.0100011, False), (0.02, False)])
+def test_interval_option_must_agree_with_time_column(table, dt, accepted):
+    """An interval that differs by more than a microsecond contradicts the column of times."""
+    path = table("time (s),NS (gal)\n" + "".join(f"{0.01 * i:.2f},{i % 7}\n" for i in range(60)))
+    if accepted:
+        assert read(path, dt=dt).dt == 0.01
+    else:
+        with pytest.raises(ParameterError, match=r"interval of the time column .* contradicts `dt`"):
+            read(path, dt=dt)

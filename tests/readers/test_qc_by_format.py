@@ -1,4 +1,4 @@
-"""What a careful reader notices is noticed in every format: the same motion, damaged in the same ways, in each of them."""
+"""Quality checks in every format: the same motion, damaged in the same ways."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import pytest
 
 from seisblock.core.errors import InputError
 from seisblock.readers import read
+from seisblock.records import Preparation
 from tests.fuzz.formats import OPTIONS, ROWS, WRITERS
 
 MIDDLE = 310
@@ -17,10 +18,10 @@ def damage_each(change):
     """Make a damage of each component."""
 
     def damage(rows):
-        found = [row.copy() for row in rows]
-        for row in found:
+        items = [row.copy() for row in rows]
+        for row in items:
             change(row)
-        return found
+        return items
 
     return damage
 
@@ -50,6 +51,9 @@ def _enlarge(row):
     row *= 70.0
 
 
+CARRY_OFFSET = ("knet", "kiknet", "knet-csv", "tar", "tar.gz", "zip", "phone")
+"""Formats of instruments whose offset is no defect: counts about a resting level, and gravity in a telephone."""
+
 SAMPLES_DAMAGED = {"clipped": _clip, "spike": _spike, "held": _gap, "held too": _hold, "offset": _offset, "size": _enlarge}
 
 
@@ -66,10 +70,24 @@ def kinds_found(data, kind, tmp_path):
 @pytest.mark.parametrize("damage", SAMPLES_DAMAGED)
 @pytest.mark.parametrize("kind", WRITERS)
 def test_sample_defects_are_flagged_in_every_format(kind, damage, tmp_path):
-    """Flat peaks, lone spikes, gaps filled with zeros or the last value, offsets, more than 5 g."""
+    """Flat peaks, lone spikes, gaps filled with zeros or the last value, offsets that are not the instrument's, more than 5 g."""
     data = WRITERS[kind](damage_each(SAMPLES_DAMAGED[damage])(ROWS))
-    found = kinds_found(data, kind, tmp_path)
-    assert found & {damage.split()[0], "refused"}
+    target = kinds_found(data, kind, tmp_path)
+    assert bool(target & {damage.split()[0], "refused"}) != (damage == "offset" and kind in CARRY_OFFSET)
+
+
+@pytest.mark.parametrize("kind", CARRY_OFFSET)
+def test_offset_of_an_instrument_is_removed_and_named(kind, tmp_path):
+    """It changes no sample of the prepared record, and the history gives its size."""
+    records = []
+    for name, rows in (("whole", ROWS), ("offset", damage_each(_offset)(ROWS))):
+        (tmp_path / name).write_bytes(WRITERS[kind](rows))
+        records.append(Preparation().apply(read(tmp_path / name)))
+    full, offset = records
+    assert any("mean" in str(step) for step in offset.history)
+    for a, b in zip(full.components, offset.components, strict=True):
+        # K-NET prints whole counts, its CSV hundredths of a gal
+        np.testing.assert_allclose(a.acceleration, b.acceleration, rtol=0, atol=2e-4)
 
 
 def _lines(change):
@@ -106,6 +124,7 @@ BARE = {
     ("blank", "the last line lost"),
     ("semicolon", "the last line lost"),
     ("clock", "the last line lost"),
+    ("phone", "the last line lost"),
 }
 """So does a table with a clock that ends with a whole line: it is a shorter record."""
 
@@ -116,8 +135,8 @@ TEXTS = sorted(set(WRITERS) - {"mseed", "sac", "tar", "tar.gz", "zip"})
 @pytest.mark.parametrize("kind", TEXTS)
 def test_line_defects_are_flagged_in_every_text_format(kind, damage, tmp_path):
     """A count against the header, a clock that stumbles, seconds that are not whole, an end without an end of line."""
-    found = kinds_found(LINES_DAMAGED[damage](WRITERS[kind](ROWS)), kind, tmp_path)
-    assert bool(found - {"directions"}) != ((kind, damage) in SILENT | BARE), found
+    target = kinds_found(LINES_DAMAGED[damage](WRITERS[kind](ROWS)), kind, tmp_path)
+    assert bool(target - {"directions"}) != ((kind, damage) in SILENT | BARE), target
 
 
 @pytest.mark.parametrize("kind", ["mseed", "sac", "tar", "tar.gz", "zip"])
@@ -135,9 +154,9 @@ TWICE = {"jma": (b"NS,EW,UD", b"NS,NS,UD"), "knet-csv": (b",N-S(gal),E-W(gal)", 
 @pytest.mark.parametrize("kind", TWICE)
 def test_duplicate_columns_are_rejected_in_every_format(kind, tmp_path):
     """None of them is believed."""
-    data, (name, other) = WRITERS[kind](ROWS), TWICE[kind]
+    data, (name, second) = WRITERS[kind](ROWS), TWICE[kind]
     assert name in data
-    assert kinds_found(data.replace(name, other), kind, tmp_path) == {"refused"}
+    assert kinds_found(data.replace(name, second), kind, tmp_path) == {"refused"}
 
 
 def test_jma_record_without_whole_seconds_is_flagged(tmp_path):

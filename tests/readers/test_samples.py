@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seisblock.core.errors import RecordNotFoundError
+from seisblock.core.errors import RecordError, RecordNotFoundError
 from seisblock.readers import read
 from seisblock.samples import DEFAULT_SAMPLE, list_samples, sample_path
 from tests import make_sample_records as maker
@@ -48,9 +48,9 @@ def test_synthetic_motion_contains_fitted_intervals():
     document = json.loads(maker.RECONSTRUCTED.read_text())
     for key, stop in {"NS_a": None, "NS_c": None, "EW_b": 60, "EW_d": None}.items():
         first = round(document[key]["t0"] * 100)
-        wanted = np.array(document[key]["values"][:stop])
-        held = record.component(key[:2]).acceleration[first : first + wanted.size]
-        np.testing.assert_array_equal(held, wanted, err_msg=key)
+        expected = np.array(document[key]["values"][:stop])
+        holding = record.component(key[:2]).acceleration[first : first + expected.size]
+        np.testing.assert_array_equal(holding, expected, err_msg=key)
 
 
 def test_synthetic_motion_exceeds_threshold_in_fitted_intervals_only():
@@ -71,15 +71,15 @@ def test_synthetic_motion_exceeds_threshold_in_fitted_intervals_only():
 
 def test_samples_equal_script_output():
     """The seeded script gives the bundled bytes again, but for the last digit that another processor may round otherwise."""
-    made = maker.make()
-    for name, (data, _) in made.items():
+    created = maker.make()
+    for name, (data, _) in created.items():
         bundled = sample_path(name).read_bytes()
         if name.endswith(".gz"):
             continue  # the bundle holds the three files, compressed by whichever zlib is here
         assert abs(len(bundled) - len(data)) <= 8
-    again = [line.split(b",") for line in made["synthetic_jma.csv"][0].splitlines()[7:]]
-    here = [line.split(b",") for line in sample_path("synthetic_jma.csv").read_bytes().splitlines()[7:]]
-    np.testing.assert_allclose(np.array(again, dtype=float), np.array(here, dtype=float), rtol=0, atol=0.0021)
+    repeat = [line.split(b",") for line in created["synthetic_jma.csv"][0].splitlines()[7:]]
+    first = [line.split(b",") for line in sample_path("synthetic_jma.csv").read_bytes().splitlines()[7:]]
+    np.testing.assert_allclose(np.array(repeat, dtype=float), np.array(first, dtype=float), rtol=0, atol=0.0021)
 
 
 def test_local_file_precedes_sample_of_same_name(tmp_path: Path, monkeypatch):
@@ -87,3 +87,14 @@ def test_local_file_precedes_sample_of_same_name(tmp_path: Path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("synthetic_jma.csv").write_text("time,NS (gal)\n0,1\n0.01,2\n0.02,3\n")
     assert read("synthetic_jma.csv").codes == ("NS",)
+
+
+@pytest.mark.parametrize("sample", RECORDS, ids=lambda s: s.name)
+def test_strict_accepts_every_bundled_record(sample):
+    assert read(sample.name).doubts == ()
+
+
+def test_archive_of_recordings_without_station_names_its_files():
+    """Twelve recordings of one component are no record of twelve components: the message tells what to give."""
+    with pytest.raises(RecordError, match=r"12 recordings of component EW .* \(pulse_01.csv, .*pulse_12.csv\): give each file separately"):
+        read("pulses.zip")

@@ -16,6 +16,8 @@ from seisblock.readers import read, read_all
 from seisblock.records import motion_of
 from seisblock.records.analytic import half_sine_motion, pulse_motion, rectangle_motion, sine_motion
 from seisblock.studies.batch.run import run_batch
+from seisblock.studies.fragility.intensity import intensity_measure
+from seisblock.studies.scenario.motions import _peaks
 
 
 @pytest.mark.parametrize("frequency,duration", ((1.5, 10.0), (0.318, 20.0), (0.05, 33.0), (7.3, 1.234)))
@@ -130,6 +132,18 @@ def test_commands_take_analytic_motions(line):
     assert "analytic motion" in table.stdout
 
 
+@pytest.mark.parametrize(
+    ("words", "option"), [("--units g", "--units"), ("--dt 0.01", "--dt"), ("--format KNET", "--format"), ("--station A", "--station")]
+)
+def test_reading_options_beside_an_analytic_motion_are_refused(words, option):
+    """Its name has unit and interval: an option of reading would be ignored; a component that it does not have is an error, too."""
+    refused = CliRunner().invoke(main, ["slide", "sine:300gal@1.5Hz,2s", "--mu", "0.2", *words.split()])
+    assert (refused.exit_code, option in refused.stderr.splitlines()[-1]) == (3, True)
+    with pytest.raises(ParameterError):
+        read_all(["synthetic_jma.csv", "sine:300gal@1.5Hz,2s"], units="gal")
+    assert CliRunner().invoke(main, ["slide", "sine:300gal@1.5Hz,2s", "--mu", "0.2", "--component", "NS"]).exit_code == 3
+
+
 def test_displacement_amplitude_returns_as_displacement():
     document = json.loads(CliRunner().invoke(main, ["measure", "sine:60cm@0.318Hz,20s", "--json"]).stdout)
     assert document["results"][0]["pgd_m"] == pytest.approx(0.6, rel=5e-5)
@@ -141,6 +155,20 @@ def test_scaled_analytic_motion_keeps_its_frequency():
     (result,) = json.loads(CliRunner().invoke(main, line.split()).stdout)["results"]
     assert result["shaking"]["pga_m_s2"] == pytest.approx(6.0)
     assert result["shaking"]["equivalent_frequency_hz"] == pytest.approx(1.5, rel=5e-5)
+
+
+def test_studies_measure_analytic_motions_without_a_filter():
+    """Intensity measure PGV and the peaks of a scenario are A/(2 pi f) of a pulse, not that of a high-passed one."""
+    record = read("pulse:400gal@1.0Hz")
+    exact = pytest.approx(4.0 / (2.0 * math.pi), rel=5e-5)
+    assert intensity_measure("pgv").of(motion_of(record, "X")) == exact
+    assert _peaks(record) == (pytest.approx(4.0), exact)
+
+
+def test_map_refuses_analytic_motions():
+    """A motion without a place belongs to no station."""
+    refused = CliRunner().invoke(main, ["map", "pulse:400gal@1.0Hz"])
+    assert (refused.exit_code, "analytic motion without a place" in refused.stderr) == (3, True)
 
 
 def test_batch_takes_analytic_motions():

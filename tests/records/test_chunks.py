@@ -1,4 +1,4 @@
-"""What is made of a long record piece by piece is what is made of it at once."""
+"""Processing of a long record in chunks equals that of the whole record."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ def small_pieces(monkeypatch):
 
 def test_chunked_integrals_equal_whole_bit_for_bit(small_pieces, monkeypatch):
     """Sums go on from piece to piece in the same order."""
-    found = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
+    result = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
     monkeypatch.setattr(integrals, "CHUNK_SIZE", 10**6)
     at_once = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
-    for one, other in zip(found, at_once, strict=True):
-        np.testing.assert_array_equal(one, other)
+    for first, second in zip(result, at_once, strict=True):
+        np.testing.assert_array_equal(first, second)
     velocity = np.concatenate(([0.0], np.cumsum(0.5 * DT * (ROW[1:] + ROW[:-1]))))
-    np.testing.assert_array_equal(found[0], velocity)
+    np.testing.assert_array_equal(result[0], velocity)
 
 
 SAME = 1e-12
@@ -66,8 +66,8 @@ def test_chunked_highpass_equals_scipy(small_pieces, hz):
 def test_butterworth_sections_equal_scipy(dt, share):
     """The design by hand is that of scipy, from a corner far below half the sampling rate to one that touches it."""
     hz = share * 0.5 / dt
-    found = np.array([[gain, -2.0 * gain, gain, 1.0, *rest] for gain, *rest in butterworth.highpass_sections(dt, hz)])
-    np.testing.assert_allclose(found, butter(4, hz, "highpass", fs=1.0 / dt, output="sos"), rtol=0.0, atol=4e-15)
+    result = np.array([[gain, -2.0 * gain, gain, 1.0, *rest] for gain, *rest in butterworth.highpass_sections(dt, hz)])
+    np.testing.assert_allclose(result, butter(4, hz, "highpass", fs=1.0 / dt, output="sos"), rtol=0.0, atol=4e-15)
 
 
 def test_chunked_padding_equals_whole():
@@ -81,9 +81,9 @@ def test_chunked_padding_equals_whole():
 def test_chunked_peak_between_samples_equals_whole(small_pieces, monkeypatch):
     """Zeros of the acceleration at the seams are met once; the velocity in pieces is the one that is looked at whole."""
     history = ground_history(ROW, DT, highpass_hz=0.5)
-    found = peaks.peak_velocity(history, DT)
+    result = peaks.peak_velocity(history, DT)
     monkeypatch.setattr(integrals, "CHUNK_SIZE", 10**6)
-    assert found == peaks.peak_velocity(history, DT) > np.abs(history.velocity).max()
+    assert result == peaks.peak_velocity(history, DT) > np.abs(history.velocity).max()
 
 
 @pytest.mark.parametrize("top", [3, 2500, 4998], ids=str)
@@ -92,12 +92,12 @@ def test_chunked_peak_pulse_equals_whole(top, sign, small_pieces, monkeypatch):
     """Wider than a piece, and cut by an end of the record: its ends are those found at once."""
     place = np.arange(ROW.size)
     row = sign * (np.cos(np.pi * (place - top) / 400.0) * np.exp(-(((place - top) / 900.0) ** 2)))
-    found = frequency.peak_pulse(row, DT)
+    result = frequency.peak_pulse(row, DT)
     monkeypatch.setattr(frequency, "CHUNK_SIZE", 10**6)
-    assert found == frequency.peak_pulse(row, DT)
-    assert found.ambiguous == (top != 2500)
-    assert found.start_s == pytest.approx(DT * max(top - 200, 0), abs=1e-12)
-    assert found.end_s == pytest.approx(DT * min(top + 200, ROW.size - 1), abs=1e-12)
+    assert result == frequency.peak_pulse(row, DT)
+    assert result.ambiguous == (top != 2500)
+    assert result.start_s == pytest.approx(DT * max(top - 200, 0), abs=1e-12)
+    assert result.end_s == pytest.approx(DT * min(top + 200, ROW.size - 1), abs=1e-12)
 
 
 def test_chunked_smoothed_spectrum_equals_whole(monkeypatch):

@@ -52,8 +52,8 @@ def test_highpass_ignores_offset_and_drift(highpass, n, hz, level, drift):
 def test_zero_phase_highpass_is_time_symmetric(n, hz, seed):
     """The reversed record gives the reversed answer, but for the 1e-5 to which the padding's transients have died."""
     wave = np.random.default_rng(seed).standard_normal(n)
-    one, other = highpass_samples(wave, DT, hz), highpass_samples(wave[::-1], DT, hz)[::-1]
-    np.testing.assert_allclose(other, one, atol=3e-5 * np.abs(wave).max())
+    first, second = highpass_samples(wave, DT, hz), highpass_samples(wave[::-1], DT, hz)[::-1]
+    np.testing.assert_allclose(second, first, atol=3e-5 * np.abs(wave).max())
 
 
 @settings(max_examples=25, deadline=None)
@@ -122,6 +122,6 @@ def test_constant_record_with_highpass_causes_no_slip(tmp_path):
     """A constant 0.05 g under --highpass 0.1 does not slide a block of friction 0.04 (it slid 24 mm)."""
     still = tmp_path / "offset.csv"
     still.write_text("time (s),EW (m/s2)\n" + "".join(f"{i * DT:.2f},0.5\n" for i in range(6000)))
-    found = CliRunner().invoke(main, ["slide", str(still), "--mu", "0.04", "--highpass", "0.1", "--json", "--quiet"])
-    assert found.exit_code == 0, found.output
-    assert '"slips": false' in found.stdout
+    result = CliRunner().invoke(main, ["slide", str(still), "--mu", "0.04", "--highpass", "0.1", "--json", "--quiet"])
+    assert result.exit_code == 0, result.output
+    assert '"slips": false' in result.stdout

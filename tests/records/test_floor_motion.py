@@ -1,4 +1,4 @@
-"""What stands on a storey feels its motion: a linear oscillator, checked against scipy, closed forms and a building."""
+"""Floor motion by a linear oscillator, checked against scipy, closed forms and a building."""
 
 import json
 import math
@@ -33,14 +33,14 @@ def absolute_by_scipy(ground, dt, omega, damping):
 def test_floor_motion_equals_scipy(storey):
     """At every sample, the free swing after the record included; the vertical component is that of the ground."""
     floor = floor_motion(SHAKING, storey)
-    more = floor.samples - SHAKING.samples
+    extra = floor.samples - SHAKING.samples
     for component in SHAKING.horizontals:
-        ground = np.append(component.acceleration, np.zeros(more))
+        ground = np.append(component.acceleration, np.zeros(extra))
         absolute = absolute_by_scipy(ground, SHAKING.dt, storey.omega, storey.damping)
         expected = ground + storey.share * (absolute - ground)
         np.testing.assert_allclose(floor.component(component.code).acceleration, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
     up = floor.component("UD").acceleration
-    np.testing.assert_array_equal(up, np.append(SHAKING.component("UD").acceleration, np.zeros(more)))
+    np.testing.assert_array_equal(up, np.append(SHAKING.component("UD").acceleration, np.zeros(extra)))
 
 
 def test_floor_motion_is_extended_until_it_decays():
@@ -51,9 +51,9 @@ def test_floor_motion_is_extended_until_it_decays():
         a = np.abs(component.acceleration)
         period = round(storey.period_s / floor.dt)
         assert a[-period:].max() < 1.4 * RINGDOWN_RATIO * a.max()
-    more = floor.samples - SHAKING.samples
-    assert more * floor.dt > 5.0
-    later = [np.abs(c.acceleration[-more // 4 - period :][:period]).max() / np.abs(c.acceleration).max() for c in floor.horizontals]
+    extra = floor.samples - SHAKING.samples
+    assert extra * floor.dt > 5.0
+    later = [np.abs(c.acceleration[-extra // 4 - period :][:period]).max() / np.abs(c.acceleration).max() for c in floor.horizontals]
     assert max(later) > RINGDOWN_RATIO
 
 
@@ -93,21 +93,21 @@ def test_floor_motion_equals_first_mode_of_200_masses():
     squares, shapes = eigh(stiffness, subset_by_index=[0, 0])
     assert math.sqrt(squares[0]) == pytest.approx(omega, rel=1e-9)
     mode = shapes[:, 0]
-    taken = mode * mode.sum() / (mode @ mode)
+    selection = mode * mode.sum() / (mode @ mode)
     ground = SHAKING.component("NS").acceleration
     absolute = absolute_by_scipy(ground, SHAKING.dt, omega, damping)
     for height in (0.25, 0.8, 1.0):
-        expected = ground + taken[round(height * count) - 1] * (absolute - ground)
+        expected = ground + selection[round(height * count) - 1] * (absolute - ground)
         # a building of n storeys takes up 3 n/(2 n + 1), one whose mass is spread over its height 3/2
         spread = height * 2 * count / (2 * count + 1)
-        found = floor_motion(SHAKING, Storey(0.9, damping, spread)).component("NS").acceleration[: ground.size]
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
+        result = floor_motion(SHAKING, Storey(0.9, damping, spread)).component("NS").acceleration[: ground.size]
+        np.testing.assert_allclose(result, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
 
 
 def test_floor_at_two_thirds_height_is_the_oscillator():
     """There the mode has the participation one."""
-    one, other = (floor_motion(SHAKING, Storey(0.7, height=h)).component("EW").acceleration for h in (None, 2 / 3))
-    np.testing.assert_allclose(one, other, rtol=0, atol=1e-12 * np.abs(one).max())
+    first, second = (floor_motion(SHAKING, Storey(0.7, height=h)).component("EW").acceleration for h in (None, 2 / 3))
+    np.testing.assert_allclose(first, second, rtol=0, atol=1e-12 * np.abs(first).max())
 
 
 def test_floor_motion_resamples_coarse_record():
@@ -117,8 +117,8 @@ def test_floor_motion_resamples_coarse_record():
     assert floor.dt == pytest.approx(0.005) and storey.period_s / floor.dt >= 20
     ground = SHAKING.component("NS").acceleration
     expected = absolute_by_scipy(ground, SHAKING.dt, storey.omega, storey.damping)
-    found = floor.component("NS").acceleration[::4][: ground.size]
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
+    result = floor.component("NS").acceleration[::4][: ground.size]
+    np.testing.assert_allclose(result, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
     assert "4 sub-intervals per sample" in floor.history[-1]
 
 
@@ -126,8 +126,8 @@ def test_floor_motion_and_rotation_commute():
     """All directions swing alike, so that turning and swinging change places."""
     floor = floor_motion(SHAKING, Storey(0.6))
     along = motion_of(floor, "37").horizontal
-    turned = Record((process.component_at_azimuth(SHAKING, 37.0),), SHAKING.dt)
-    before = floor_motion(turned, Storey(0.6)).components[0].acceleration
+    rotated = Record((process.component_at_azimuth(SHAKING, 37.0),), SHAKING.dt)
+    before = floor_motion(rotated, Storey(0.6)).components[0].acceleration
     n = min(along.size, before.size)
     np.testing.assert_allclose(along[:n], before[:n], rtol=0, atol=1e-10 * np.abs(along).max())
 
@@ -138,8 +138,8 @@ def test_floor_motion_follows_scaling_and_precedes_crop():
     prepared = Preparation(highpass_hz=0.2, target_pga=4.0, window=(5.0, 40.0), floor=storey).apply(SHAKING)
     by_hand = process.crop(floor_motion(process.scale_to_pga(process.highpass(SHAKING, 0.2), 4.0), storey), 5.0, 40.0)
     assert prepared.history == by_hand.history and len(prepared.history) == 4
-    for one, other in zip(prepared.components, by_hand.components, strict=True):
-        np.testing.assert_array_equal(one.acceleration, other.acceleration)
+    for first, second in zip(prepared.components, by_hand.components, strict=True):
+        np.testing.assert_array_equal(first.acceleration, second.acceleration)
     assert abs(prepared.component("NS").acceleration[0]) > 0.05
     assert prepared.samples > process.crop(SHAKING, 5.0, None).samples
 
@@ -173,20 +173,20 @@ def test_floor_motion_rejects_too_many_samples(storey):
 
 def test_floor_option_exists_beside_highpass():
     """The option stands where the high-pass stands, and nowhere else."""
-    options = {name: {each for p in main.get_command(None, name).params for each in p.opts} for name in COMMANDS}
+    options = {name: {opt for p in main.get_command(None, name).params for opt in p.opts} for name in COMMANDS}
     assert {name for name in COMMANDS if "--floor" in options[name]} == {name for name in COMMANDS if "--highpass" in options[name]}
 
 
 def test_command_line_reports_floor_motion():
     """The history of the document and what is said beside it name it; the numbers are those of the library."""
-    found = CliRunner().invoke(main, ["measure", "elcentro_1940_ns.csv", "--floor", "T=0.6,zeta=0.03,height=0.8", "--json"])
-    told = json.loads(found.stdout)
+    result = CliRunner().invoke(main, ["measure", "elcentro_1940_ns.csv", "--floor", "T=0.6,zeta=0.03,height=0.8", "--json"])
+    output = json.loads(result.stdout)
     floor = Preparation(floor=Storey(0.6, 0.03, 0.8)).apply(seisblock.read("elcentro_1940_ns.csv"))
-    assert told["record"]["history"] == list(floor.history)
-    assert told["record"]["history"][-1].startswith("floor motion T 0.6 s, damping 0.03, height ratio 0.8 (absolute acceleration")
-    assert told["results"][0]["pga_m_s2"] == np.abs(floor.horizontals[0].acceleration).max()
-    assert "floor motion T 0.6 s" in found.stderr
-    assert set(papers("storey")) <= set(told["citations"])
+    assert output["record"]["history"] == list(floor.history)
+    assert output["record"]["history"][-1].startswith("floor motion T 0.6 s, damping 0.03, height ratio 0.8 (absolute acceleration")
+    assert output["results"][0]["pga_m_s2"] == np.abs(floor.horizontals[0].acceleration).max()
+    assert "floor motion T 0.6 s" in result.stderr
+    assert set(papers("storey")) <= set(output["citations"])
 
 
 @pytest.mark.parametrize(
@@ -212,9 +212,9 @@ def test_command_line_reports_floor_motion():
     ids=lambda words: words[0],
 )
 def test_floor_motion_results_cite_its_papers(words, tmp_path, monkeypatch):
-    """Whether the records stand in the document or not; on the ground they do not."""
+    """Results on a floor cite the papers of floor motion; results on the ground do not."""
     monkeypatch.chdir(tmp_path)
-    for more, there in (((), False), (("--floor", "T=0.6"), True)):
-        cited = json.loads(CliRunner().invoke(main, [*words, "--json", "--quiet", *more]).stdout)["citations"]
-        assert ("Chopra2012" in cited) is there
+    for extra, second in (((), False), (("--floor", "T=0.6"), True)):
+        cited = json.loads(CliRunner().invoke(main, [*words, "--json", "--quiet", *extra]).stdout)["citations"]
+        assert ("Chopra2012" in cited) is second
         (tmp_path / "out.csv").unlink(missing_ok=True)

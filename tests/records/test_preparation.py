@@ -15,10 +15,10 @@ RNG = np.random.default_rng(3)
 RECORD = Record(tuple(Component(code, RNG.normal(0.3, 1.0, 2000)) for code in ("NS", "EW", "UD")), 0.01)
 
 
-def same(one, other):
+def same(first, second):
     """Assert that two records hold the same samples and tell the same story."""
-    assert one.codes == other.codes and one.history == other.history and one.offset_s == other.offset_s
-    for a, b in zip(one.components, other.components, strict=True):
+    assert first.codes == second.codes and first.history == second.history and first.offset_s == second.offset_s
+    for a, b in zip(first.components, second.components, strict=True):
         np.testing.assert_array_equal(a.acceleration, b.acceleration)
 
 
@@ -40,12 +40,12 @@ def test_empty_preparation_changes_nothing():
 
 
 @pytest.mark.parametrize(
-    ("asked", "carries", "removed"), [(None, True, True), (None, False, False), (False, True, False), (True, False, True)]
+    ("settings", "carries", "removed"), [(None, True, True), (None, False, False), (False, True, False), (True, False, True)]
 )
-def test_preparation_removes_mean_of_count_offset(asked, carries, removed):
+def test_preparation_removes_mean_of_count_offset(settings, carries, removed):
     """Unless it is asked for, or refused."""
     record = Record(RECORD.components, RECORD.dt, metadata={"carries_offset": carries})
-    mean = Preparation(demean=asked).apply(record).component("NS").acceleration.mean()
+    mean = Preparation(demean=settings).apply(record).component("NS").acceleration.mean()
     assert bool(abs(mean) < 1e-12) is removed
 
 
@@ -56,13 +56,13 @@ def test_preparation_is_a_value_and_scales_largest_horizontal():
     for size in (1.0, 7.0):
         record = process.scale(RECORD, size)
         prepared = preparation.apply(record)
-        whole = process.scale_to_pga(record, 3.0)
-        assert max(np.abs(c.acceleration).max() for c in whole.horizontals) == pytest.approx(3.0, rel=1e-15)
-        same(prepared, process.crop(whole, None, 10.0))
+        full = process.scale_to_pga(record, 3.0)
+        assert max(np.abs(c.acceleration).max() for c in full.horizontals) == pytest.approx(3.0, rel=1e-15)
+        same(prepared, process.crop(full, None, 10.0))
 
 
 @pytest.mark.parametrize(
-    ("asked", "error", "says"),
+    ("settings", "error", "says"),
     [
         ({"scale": float("nan")}, ParameterError, "the scale factor must be a finite number"),
         ({"highpass_hz": 0.0}, ParameterError, "the high-pass corner must be positive"),
@@ -72,16 +72,16 @@ def test_preparation_is_a_value_and_scales_largest_horizontal():
         ({"highpass_hz": 80.0}, ParameterError, "half the sampling rate"),
     ],
 )
-def test_preparation_rejects_invalid_steps(asked, error, says):
+def test_preparation_rejects_invalid_steps(settings, error, says):
     """Numbers when it is made, the rest when a record goes through."""
     with pytest.raises(error, match=says):
-        Preparation(**asked).apply(RECORD)
+        Preparation(**settings).apply(RECORD)
 
 
 def test_command_line_equals_preparation():
-    """What a command says of its record's options is what a library user gets in one call."""
+    """Options of the command line and one call of the library prepare the same record."""
     options = ["--demean", "--highpass", "0.2", "--target-pga", "500", "--component", "EW", "--window", "20:40"]
-    told = json.loads(CliRunner().invoke(main, ["measure", "synthetic_knet.EW", *options, "--json", "--quiet"]).stdout)["results"][0]
+    entry = json.loads(CliRunner().invoke(main, ["measure", "synthetic_knet.EW", *options, "--json", "--quiet"]).stdout)["results"][0]
     preparation = Preparation(demean=True, highpass_hz=0.2, target_pga=5.0, components=("EW",), window=(20.0, 40.0))
-    found = seisblock.measure(preparation.apply(seisblock.read("synthetic_knet.EW")), ["EW"]).components[0]
-    assert told["pga_m_s2"] == found.pga_m_s2 and told["pgv_m_s"] == found.pgv_m_s
+    result = seisblock.measure(preparation.apply(seisblock.read("synthetic_knet.EW")), ["EW"]).components[0]
+    assert entry["pga_m_s2"] == result.pga_m_s2 and entry["pgv_m_s"] == result.pgv_m_s

@@ -1,4 +1,4 @@
-"""What is done to a record between reading and solving does what it says, and says it."""
+"""Processing steps between reading and solving, and their descriptions."""
 
 import numpy as np
 import pytest
@@ -17,11 +17,11 @@ RECORD = Record([Component(code, values) for code, values in PARTS.items()], 0.0
 
 def test_demean_removes_the_whole_mean_of_each_component():
     """Means are zero afterwards, the shape is kept, and the means are named."""
-    done = demean(RECORD)
-    for before, after in zip(RECORD.components, done.components, strict=True):
+    result = demean(RECORD)
+    for before, after in zip(RECORD.components, result.components, strict=True):
         assert abs(after.acceleration.mean()) < 1e-15
         np.testing.assert_allclose(np.diff(after.acceleration), np.diff(before.acceleration), atol=1e-15)
-    assert f"NS {100 * RECORD.components[0].acceleration.mean():.4g}" in done.history[-1]
+    assert f"NS {100 * RECORD.components[0].acceleration.mean():.4g}" in result.history[-1]
     assert RECORD.history == ()
 
 
@@ -70,11 +70,11 @@ def test_scale_by_one_is_not_reported():
 
 def test_scale_to_pga_uses_largest_horizontal():
     """EW (2 m/s^2) reaches the target although UD is larger; ratios are kept."""
-    done = scale_to_pga(RECORD, 4.0)
+    result = scale_to_pga(RECORD, 4.0)
     assert largest_horizontal(RECORD).code == "EW"
-    assert np.abs(done.component("EW").acceleration).max() == pytest.approx(4.0, rel=1e-14)
-    np.testing.assert_allclose(done.component("UD").acceleration, 2 * RECORD.component("UD").acceleration, rtol=1e-14)
-    assert "EW (largest horizontal)" in done.history[-1]
+    assert np.abs(result.component("EW").acceleration).max() == pytest.approx(4.0, rel=1e-14)
+    np.testing.assert_allclose(result.component("UD").acceleration, 2 * RECORD.component("UD").acceleration, rtol=1e-14)
+    assert "EW (largest horizontal)" in result.history[-1]
 
 
 def test_scale_to_pga_of_named_components():
@@ -120,17 +120,17 @@ def test_highpass_has_squared_butterworth_gain_and_no_delay():
 
 def test_highpass_is_recorded_in_history():
     """The history names the corner, the filter and the baseline; the offset is gone."""
-    done = highpass(RECORD, 0.2)
-    assert "high-pass 0.2 Hz (Butterworth order 4 forwards and backwards, line through the ends removed" in done.history[-1]
+    result = highpass(RECORD, 0.2)
+    assert "high-pass 0.2 Hz (Butterworth order 4 forwards and backwards, line through the ends removed" in result.history[-1]
     lifted = RECORD.with_components([Component(c.code, c.acceleration + 9.0) for c in RECORD.components], "lifted")
-    np.testing.assert_allclose(highpass(lifted, 0.2).component("NS").acceleration, done.component("NS").acceleration, atol=1e-9)
+    np.testing.assert_allclose(highpass(lifted, 0.2).component("NS").acceleration, result.component("NS").acceleration, atol=1e-9)
 
 
 @given(st.floats(-720, 720))
 def test_rotation_keeps_vector_length(azimuth):
     """The length of the horizontal vector does not change, and the vertical stays bit by bit."""
-    turned = rotate(RECORD, azimuth)
-    a, b, up = (c.acceleration for c in turned.components)
+    rotated = rotate(RECORD, azimuth)
+    a, b, up = (c.acceleration for c in rotated.components)
     np.testing.assert_allclose(np.hypot(a, b), np.hypot(*(RECORD.component(c).acceleration for c in ("NS", "EW"))), rtol=1e-12, atol=1e-12)
     np.testing.assert_array_equal(up, RECORD.component("UD").acceleration)
 

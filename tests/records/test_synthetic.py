@@ -60,8 +60,8 @@ class TestTarget:
     @pytest.mark.parametrize("case", PYRVT)
     def test_target_spectrum_equals_pyrvt(self, case):
         """Source, path and site multiply to the Fourier amplitudes of pyrvt."""
-        found = PointSource(case[0], 1e3 * case[1]).spectrum(np.array([0.1, 0.3, 1.0, 3.0, 10.0, 25.0]))
-        assert found == pytest.approx(PYRVT[case][0], rel=INDEPENDENT)
+        result = PointSource(case[0], 1e3 * case[1]).spectrum(np.array([0.1, 0.3, 1.0, 3.0, 10.0, 25.0]))
+        assert result == pytest.approx(PYRVT[case][0], rel=INDEPENDENT)
 
     def test_target_spectrum_falls_with_frequency_squared(self):
         """Towards zero the ground neither moves on nor is displaced for ever."""
@@ -91,8 +91,8 @@ class TestSuite:
 
     def test_response_spectra_equal_random_vibration_theory(self, suite):
         """At 2, 5 and 10 Hz, of half of the suite."""
-        found = [response_spectrum(a, 0.01, [0.5, 0.2, 0.1]).sa_m_s2 for a in samples(suite[:20], "NS", "EW").reshape(40, -1)]
-        assert np.exp(np.log(found).mean(axis=0)) == pytest.approx(PYRVT_SA, rel=RANDOM_VIBRATION)
+        result = [response_spectrum(a, 0.01, [0.5, 0.2, 0.1]).sa_m_s2 for a in samples(suite[:20], "NS", "EW").reshape(40, -1)]
+        assert np.exp(np.log(result).mean(axis=0)) == pytest.approx(PYRVT_SA, rel=RANDOM_VIBRATION)
 
     @pytest.mark.parametrize(("magnitude", "distance"), [(5.0, 20.0), (7.0, 20.0), (7.0, 100.0)])
     def test_significant_duration_equals_target(self, magnitude, distance):
@@ -124,10 +124,10 @@ class TestSuite:
 
     def test_suite_is_reproducible_by_seed(self, suite):
         """The same seed gives the same bits, a longer suite begins with a shorter one, another seed is another suite."""
-        again, other = synthetic_suite(7.0, 20.0, 3, seed=17), synthetic_suite(7.0, 20.0, 3, seed=18)
-        assert np.array_equal(samples(again, "NS", "EW", "UD"), samples(suite[:3], "NS", "EW", "UD"))
-        assert not np.array_equal(samples(other, "NS"), samples(again, "NS"))
-        assert not np.array_equal(samples(again[:1], "NS"), samples(again[1:2], "NS"))
+        repeated, second = synthetic_suite(7.0, 20.0, 3, seed=17), synthetic_suite(7.0, 20.0, 3, seed=18)
+        assert np.array_equal(samples(repeated, "NS", "EW", "UD"), samples(suite[:3], "NS", "EW", "UD"))
+        assert not np.array_equal(samples(second, "NS"), samples(repeated, "NS"))
+        assert not np.array_equal(samples(repeated[:1], "NS"), samples(repeated[1:2], "NS"))
 
     def test_records_are_marked_synthetic(self, suite):
         """Station, name, format, history and magnitude."""
@@ -165,23 +165,23 @@ class TestCommand:
 
     def test_written_suite_round_trips(self, run, tmp_path):
         """The records written are read back to the last bit, so that the study of the folder is that of the suite."""
-        made = run("--suite", "synthetic:M6.5:R15:4", "--suite-out", "made", "--seed", 3, "--json")
-        assert made.exit_code == 0, made.stderr
+        result = run("--suite", "synthetic:M6.5:R15:4", "--suite-out", "made", "--seed", 3, "--json")
+        assert result.exit_code == 0, result.stderr
         files = sorted((tmp_path / "made").iterdir())
         assert [path.name for path in files] == [f"synthetic_M6.5_R15_{n:03d}.csv" for n in range(1, 5)]
         for path, record in zip(files, synthetic_suite(6.5, 15.0, 4, seed=3), strict=True):
             back = seisblock.read(path)
             assert back.dt == record.dt and back.codes == record.codes
             assert all(np.array_equal(back.component(c.code).acceleration, c.acceleration) for c in record.components)
-        document, read = json.loads(made.stdout), json.loads(run("made", "--seed", 3, "--json").stdout)
+        document, read = json.loads(result.stdout), json.loads(run("made", "--seed", 3, "--json").stdout)
         assert [{**r, "efficiency": None} for r in document["results"]] == [{**r, "efficiency": None} for r in read["results"]]
         assert document["parameters"]["suite"] == "synthetic:M6.5:R15:4" and read["parameters"]["suite"] is None
         assert any("Boore" in text for text in document["citations"]) and not any("Boore" in text for text in read["citations"])
 
     def test_written_knet_files_round_trip(self, run, tmp_path):
         """Three to a record, to the last bit, by our reader without a doubt and by obspy; the study of the folder is that of the suite."""
-        made = run("--suite", "synthetic:M6.5:R15:4", "--suite-out", "made", "--suite-format", "knet", "--seed", 3, "--json")
-        assert made.exit_code == 0, made.stderr
+        completed = run("--suite", "synthetic:M6.5:R15:4", "--suite-out", "made", "--suite-format", "knet", "--seed", 3, "--json")
+        assert completed.exit_code == 0, completed.stderr
         files = sorted((tmp_path / "made").iterdir())
         assert [path.name for path in files[:3]] == [f"SYN0010001010000.{code}" for code in ("EW", "NS", "UD")] and len(files) == 12
         for number, record in enumerate(synthetic_suite(6.5, 15.0, 4, seed=3), start=1):
@@ -192,9 +192,9 @@ class TestCommand:
                 c.code: c.acceleration.tolist() for c in record.components
             }
             trace = obspy.read(path, format="KNET")[0]
-            found = trace.data * trace.stats.calib
-            assert np.allclose(found, record.component("EW").acceleration, rtol=0, atol=1e-9)
-        document, read = (json.loads(each.stdout)["results"] for each in (made, run("made", "--seed", 3, "--no-demean", "--json")))
+            result = trace.data * trace.stats.calib
+            assert np.allclose(result, record.component("EW").acceleration, rtol=0, atol=1e-9)
+        document, read = (json.loads(item.stdout)["results"] for item in (completed, run("made", "--seed", 3, "--no-demean", "--json")))
         assert [{**r, "efficiency": None} for r in document] == [{**r, "efficiency": None} for r in read]
 
     def test_knet_counts_are_coarser_above_999_gal(self, tmp_path):
@@ -212,9 +212,9 @@ class TestCommand:
     def test_output_states_that_records_are_synthetic(self, run, monkeypatch):
         """Without RECORD it says which records it takes, and that they are synthetic."""
         monkeypatch.setattr("seisblock.cli.run_fragility.DEFAULT_SUITE", "synthetic:M7:R20:3")
-        said = run("--json")
-        assert said.exit_code == 0 and "using synthetic:M7:R20:3" in said.stderr and "synthetic records of one source" in said.stderr
-        assert "synthetic (not recorded)" in json.loads(said.stdout)["record"][0]["history"][0]
+        result = run("--json")
+        assert result.exit_code == 0 and "using synthetic:M7:R20:3" in result.stderr and "synthetic records of one source" in result.stderr
+        assert "synthetic (not recorded)" in json.loads(result.stdout)["record"][0]["history"][0]
 
     @pytest.mark.parametrize("words", [("--suite", "synthetic:M7:R20:3"), ("--suite-out", "there")])
     def test_records_and_suite_are_exclusive(self, run, words):
@@ -223,7 +223,7 @@ class TestCommand:
         assert refused.exit_code == 3 and words[0] in refused.stderr
 
     def test_suite_refuses_to_write_over_file(self, run, tmp_path):
-        """What is there stays as it is."""
+        """An existing file is not overwritten."""
         (tmp_path / "notes").write_text("mine")
         assert run("--suite", "synthetic:M7:R20:3", "--suite-out", "notes").exit_code in (2, 3)
         assert (tmp_path / "notes").read_text() == "mine"

@@ -16,7 +16,7 @@ def lines(command):
     for root in roots:
         for path, kind in _walk({"$ref": root["$ref"]}, schema["$defs"], root["$ref"].rpartition("/")[2]):
             kinds.setdefault(path, []).append(kind)
-    return [document_schemas(command)[0].schema, *(f"{path} {'|'.join(dict.fromkeys(each))}" for path, each in kinds.items())]
+    return [document_schemas(command)[0].schema, *(f"{path} {'|'.join(dict.fromkeys(item))}" for path, item in kinds.items())]
 
 
 def _walk(shape, definitions, path):
@@ -25,18 +25,18 @@ def _walk(shape, definitions, path):
         shape = definitions[shape["$ref"].rpartition("/")[2]]
     if "anyOf" in shape:
         # msgspec says null first or last, as its version likes
-        for each in sorted(shape["anyOf"], key=lambda each: each.get("type") == "null"):
-            yield from _walk(each, definitions, path)
+        for entry in sorted(shape["anyOf"], key=lambda item: item.get("type") == "null"):
+            yield from _walk(entry, definitions, path)
         return
     kind = shape.get("type", "enum" if "enum" in shape else "anything")
     if kind == "array":
         items = [shape["items"]] if "items" in shape and shape["items"] is not False else shape.get("prefixItems", [])
-        for each in items:
-            yield from _walk(each, definitions, path + "[]")
+        for entry in items:
+            yield from _walk(entry, definitions, path + "[]")
     elif kind == "object":
-        for key, each in shape.get("properties", {}).items():
+        for key, entry in shape.get("properties", {}).items():
             optional = "" if key in shape.get("required", ()) else "?"
-            yield from _walk(each, definitions, f"{path}.{key}{optional}")
+            yield from _walk(entry, definitions, f"{path}.{key}{optional}")
         if isinstance(shape.get("additionalProperties"), dict):
             yield from _walk(shape["additionalProperties"], definitions, path + "{}")
     else:

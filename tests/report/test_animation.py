@@ -10,12 +10,12 @@ from PIL import Image
 
 from seisblock.bodies.block import Block
 from seisblock.core.errors import OutputError
+from seisblock.models.rock.animate import animate, centroid_position, corners, extend_to_fall
 from seisblock.models.rock.solve import solve_rock
+from seisblock.output.animation.render import MAX_FRAMES, frame_times, write_frames
+from seisblock.output.io import atomic
+from seisblock.output.io.atomic import find_ffmpeg
 from seisblock.records import Motion
-from seisblock.report.animation.render import MAX_FRAMES, frame_times, write_frames
-from seisblock.report.animation.rock import animate, centroid_position, corners, extend_to_fall
-from seisblock.report.io import atomic
-from seisblock.report.io.atomic import find_ffmpeg
 
 
 @pytest.fixture(scope="module")
@@ -43,19 +43,19 @@ def test_gif_has_every_frame_at_true_speed(tmp_path):
 
 
 def test_gif_stores_only_changes_between_frames(tmp_path):
-    """What stands still is packed once, however much of it there is; what is seen is every picture as it was drawn."""
+    """A GIF stores unchanged regions once and reproduces every frame as drawn."""
     ground = np.random.default_rng(0).integers(0, 2, (60, 90)) * 255
-    shown = []
+    collected = []
     for i in range(20):
         picture = np.repeat(ground[:, :, None], 3, axis=2).astype(np.uint8)
         picture[:, 4 * i : 4 * i + 3] = (255, 0, 0)
         picture[i, :] = (0, 0, 255)
-        shown.append(Image.fromarray(picture))
-    write_frames(shown[:1] * 2, tmp_path / "still.gif")
-    write_frames(shown, tmp_path / "moves.gif")
+        collected.append(Image.fromarray(picture))
+    write_frames(collected[:1] * 2, tmp_path / "still.gif")
+    write_frames(collected, tmp_path / "moves.gif")
     with Image.open(tmp_path / "moves.gif") as image:
         assert image.n_frames == 20
-        for index, picture in enumerate(shown):
+        for index, picture in enumerate(collected):
             image.seek(index)
             np.testing.assert_array_equal(np.asarray(image.convert("RGB")), np.asarray(picture))
     still, moves = ((tmp_path / name).stat().st_size for name in ("still.gif", "moves.gif"))
@@ -151,6 +151,6 @@ def test_overturning_after_record_is_animated_to_rest():
     short = solve_rock(Block(0.24, 0.8), Motion.from_arrays(1.4 * pulse, 0.01))
     assert short.outcome.overturned
     assert short.outcome.decided_after_record
-    whole = extend_to_fall(short)
-    assert abs(whole["rotation"][-1]) == pytest.approx(np.pi / 2)
-    assert whole.time[-1] == pytest.approx(short.outcome.overturning_time_s, abs=2e-2)
+    full = extend_to_fall(short)
+    assert abs(full["rotation"][-1]) == pytest.approx(np.pi / 2)
+    assert full.time[-1] == pytest.approx(short.outcome.overturning_time_s, abs=2e-2)

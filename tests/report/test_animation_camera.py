@@ -7,20 +7,20 @@ import re
 import numpy as np
 import pytest
 
-from seisblock.report.animation.html import VIEW_AZIMUTHS, animation_html
-from seisblock.report.animation.render import AnimationOptions
-from seisblock.report.animation.scene3d import AZIMUTH, ELEVATION, view_axes
+from seisblock.output.animation.html import VIEW_AZIMUTHS, animation_html
+from seisblock.output.animation.render import AnimationOptions
+from seisblock.output.animation.scene3d import AZIMUTH, ELEVATION, view_axes
 from tests.report.test_every_animation import film
 
-WHERE = AZIMUTH + 2.0 * math.pi * np.arange(VIEW_AZIMUTHS) / VIEW_AZIMUTHS
+PLACE = AZIMUTH + 2.0 * math.pi * np.arange(VIEW_AZIMUTHS) / VIEW_AZIMUTHS
 
 
 def boxes(model):
     """Return what the page of a film knows: how much of the picture is taken, seen from each direction."""
-    told = re.search(
+    animation = re.search(
         r'<script[^>]*type="application/json"[^>]*>(.*?)</script>', animation_html(film(model, 100), AnimationOptions()), re.DOTALL
     )
-    return np.array(json.loads(told.group(1))["scene"]["extents"])
+    return np.array(json.loads(animation.group(1))["scene"]["extents"])
 
 
 def seen_from(azimuth, points):
@@ -33,19 +33,19 @@ def seen_from(azimuth, points):
 @pytest.mark.parametrize("between", [0.0, 0.5])
 def test_view_box_contains_all_stones_from_each_azimuth(model, between):
     """Ground and stones on it are in the box of each direction and between two; the box of the first view was taken for all."""
-    scene, known = film(model, 100).scene, boxes(model)
+    scene, expected = film(model, 100).scene, boxes(model)
     lying = [solid.corners_at(-1) for solid in scene.solids]
     low, high = scene.patch[0, :2], scene.patch[2, :2]
     on_ground = [corners for corners in lying if (low <= corners[:, :2]).all() and (corners[:, :2] <= high).all()]
     points = np.concatenate([scene.patch, *on_ground]) + scene.ground_displacement[-1]
-    for k, azimuth in enumerate(WHERE):
-        left, end, bottom, top = (1.0 - between) * known[k] + between * known[(k + 1) % VIEW_AZIMUTHS]
+    for k, azimuth in enumerate(PLACE):
+        left, end, bottom, top = (1.0 - between) * expected[k] + between * expected[(k + 1) % VIEW_AZIMUTHS]
         across, rise = seen_from(azimuth + between * 2.0 * math.pi / VIEW_AZIMUTHS, points)
         assert left < across.min() and across.max() < end and bottom < rise.min() and rise.max() < top
 
 
 def test_view_box_of_first_azimuth_is_too_narrow_for_others():
-    """What a viewer at the first place sees is too narrow a box for one who walked around what has fallen."""
-    known = boxes("stack")
-    assert (np.abs(known - known[0]).max(axis=1) > 0.2).any()
-    np.testing.assert_allclose(known[0], film("stack", 100).scene.extent(), atol=1e-4)
+    """The view box of one azimuth is too narrow for a camera that turns around the fallen stones."""
+    expected = boxes("stack")
+    assert (np.abs(expected - expected[0]).max(axis=1) > 0.2).any()
+    np.testing.assert_allclose(expected[0], film("stack", 100).scene.extent(), atol=1e-4)

@@ -14,20 +14,20 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.toml import read_body_toml
 from seisblock.bodies.two_layer import Contact, contact_from_table, two_layer_from_table
 from seisblock.measures import ground_history
+from seisblock.models.jump.animate import animate as animate_jump
+from seisblock.models.jump.animate import jump_animation
 from seisblock.models.jump.solve import solve_jump
+from seisblock.models.rock.animate import animate as animate_rock
+from seisblock.models.rock.animate import rocking_animation
 from seisblock.models.rock.solve import solve_rock
+from seisblock.output.animation.animation import Animation, Line, Strip
+from seisblock.output.animation.frames import format_speed
+from seisblock.output.animation.html import animation_html
+from seisblock.output.animation.render import AnimationOptions
+from seisblock.output.animation.scene2d import Body, Piece, Scene2D, rectangle, rotate
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.records.process import crop
-from seisblock.report.animation.animation import Animation, Line, Strip
-from seisblock.report.animation.frames import format_speed
-from seisblock.report.animation.html import animation_html
-from seisblock.report.animation.jump import animate as animate_jump
-from seisblock.report.animation.jump import jump_animation
-from seisblock.report.animation.render import AnimationOptions
-from seisblock.report.animation.rock import animate as animate_rock
-from seisblock.report.animation.rock import rocking_animation
-from seisblock.report.animation.scene2d import Body, Piece, Scene2D, rectangle, rotate
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
@@ -99,9 +99,9 @@ def test_animation_page_is_self_contained(jump_film):
     """Data, script and style stand in the page; what it holds is the film to 0.01 mm."""
     page = animation_html(jump_film, AnimationOptions(slow=4.0))
     data = json.loads(re.search(r'id="film">(.*?)</script>', page, re.DOTALL).group(1))
-    drawn = data["scene"]["trails"][1]
+    curve = data["scene"]["trails"][1]
     path = jump_film.scene.trails[1]
-    np.testing.assert_allclose(drawn["x"], path.x[(path.time >= jump_film.time[0]) & (path.time <= jump_film.time[-1])], atol=5.1e-6)
+    np.testing.assert_allclose(curve["x"], path.x[(path.time >= jump_film.time[0]) & (path.time <= jump_film.time[-1])], atol=5.1e-6)
     assert data["pace"] == 0.25 and '<option value="0.25" selected>' in page
     assert not re.search(r"https?://|src=|@import|url\(", page)
     assert len(page) < 150_000
@@ -132,9 +132,9 @@ def test_animation_reports_progress_per_frame(tmp_path):
     """Progress ends at the number of pictures, which is that of the response's length in real time."""
     t = np.arange(301) * 0.01
     response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
-    told = []
-    animate_rock(response, tmp_path / "rock.gif", AnimationOptions(progress=lambda done, total: told.append((done, total))))
-    assert told[-1][0] == told[-1][1] > 50
+    collected = []
+    animate_rock(response, tmp_path / "rock.gif", AnimationOptions(progress=lambda result, total: collected.append((result, total))))
+    assert collected[-1][0] == collected[-1][1] > 50
 
 
 def test_rocking_block_stands_on_its_pivot():
@@ -155,9 +155,9 @@ def test_animation_page_runs_in_browser(jump_film, tmp_path, width):
     """The script runs: the clock shows the time, and the scene is not empty."""
     path = tmp_path / "film.html"
     path.write_text(animation_html(jump_film, AnimationOptions()) + "<script>document.title = String(byId('scene').width > 300)</script>")
-    shown = render_in_browser(path, tmp_path, width)
-    assert re.search(r'id="clock">2[67]\.\d{3} s<', shown)
-    assert "<title>true</title>" in shown
+    target = render_in_browser(path, tmp_path, width)
+    assert re.search(r'id="clock">2[67]\.\d{3} s<', target)
+    assert "<title>true</title>" in target
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
@@ -165,12 +165,12 @@ def test_axis_numbers_of_page_are_not_clipped(jump_film, tmp_path):
     """Numbers end left of their strip and begin right of the page's edge, however many digits they have."""
     tiny = replace(jump_film, strips=(Strip("x (m)", (Line(jump_film.time, np.linspace(0.0, -0.000602, jump_film.time.size)),)),))
     path = tmp_path / "film.html"
-    seen = """<script>
+    observed = """<script>
       const told = []; CanvasRenderingContext2D.prototype.fillText = function (text, x) {
         told.push([text, this.textAlign === "right" ? x - this.measureText(text).width : x]); };
       draw(); document.title = JSON.stringify(told.filter(each => each[0].includes("0.000602")).map(each => each[1] >= 0));
     </script>"""
-    path.write_text(animation_html(tiny, AnimationOptions()) + seen)
+    path.write_text(animation_html(tiny, AnimationOptions()) + observed)
     assert "<title>[true]</title>" in render_in_browser(path, tmp_path, 390)
 
 

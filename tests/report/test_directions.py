@@ -7,20 +7,20 @@ import pytest
 from matplotlib.text import Text
 
 from seisblock.core.i18n import use_locale
-from seisblock.core.registry import solver_names
+from seisblock.models.jump.animate import jump_animation
+from seisblock.models.respond.animate import respond_animation
+from seisblock.models.rock.animate import rocking_animation
+from seisblock.models.slide.animate import slide_animation
+from seisblock.models.stack.animate import stack_animation
+from seisblock.models.uplift.animate import uplift_animation
+from seisblock.output.animation.html import animation_html
+from seisblock.output.animation.render import REAL_TIME
+from seisblock.output.directions import direction_in_plane, direction_label, phase_label, transverse_component, with_direction
+from seisblock.output.figures.solver import response_figure
+from seisblock.output.text.solver import describe as verdict_text
 from seisblock.records import Component, Motion, Record, motion_of
-from seisblock.report.animation.html import animation_html
-from seisblock.report.animation.jump import jump_animation
-from seisblock.report.animation.render import REAL_TIME
-from seisblock.report.animation.respond import respond_animation
-from seisblock.report.animation.rock import rocking_animation
-from seisblock.report.animation.slide import slide_animation
-from seisblock.report.animation.stack import stack_animation
-from seisblock.report.animation.uplift import uplift_animation
-from seisblock.report.directions import direction_in_plane, direction_label, phase_label, with_direction
 from seisblock.report.html.report_text import sentences, verdict
-from seisblock.report.registry import response_figure, verdict_text
-from seisblock.studies.assessment import ModelResponse
+from seisblock.studies.report.responses import ModelResponse
 from tests.lengths import all_but_slow
 from tests.report.long_record import response
 
@@ -34,26 +34,26 @@ NAMELESS = re.compile(r"(?<![\w(（,=+-])[+-]x(?! = )|forward|backward|\+alpha|-
 
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
-@pytest.mark.parametrize("model", all_but_slow(solver_names(), set(solver_names()) - {"stack"}))
+@pytest.mark.parametrize("model", all_but_slow(FILMS, set(FILMS) - {"stack"}))
 def test_models_name_directions_after_record_components(model, lang):
     """Verdict, figure, film and report of each model; a document keeps its own words, which are data."""
-    found = response(model)
+    solution = response(model)
     with use_locale(lang):
-        figure = response_figure([found])
-        film = FILMS[model](found, np.linspace(52.0, 70.0, 50))
+        figure = response_figure([solution])
+        film = FILMS[model](solution, np.linspace(52.0, 70.0, 50))
         page = animation_html(film, REAL_TIME)
-        told = [
-            verdict_text(found),
+        texts = [
+            verdict_text(solution),
             *(text.get_text() for text in figure.findobj(Text)),
             *(film.phase_label(p.name) for p in film.visible_phases),
         ]
-        told += [film.title, film.note, film.heading, page.split("application/json")[0]]
+        texts += [film.title, film.note, film.heading, page.split("application/json")[0]]
         if model in ("rock", "slide", "jump", "uplift"):
-            effect = ModelResponse(model, found, None, None)
-            told += [verdict(effect), *sentences(effect)]
-    assert not [text for text in told if NAMELESS.search(text)]
+            effect = ModelResponse(solution, None, None)
+            texts += [verdict(effect), *sentences(effect)]
+    assert not [text for text in texts if NAMELESS.search(text)]
     if model in ("rock", "slide", "jump"):
-        assert re.search(r"[+-]NS\b", " ".join(told))
+        assert re.search(r"[+-]NS\b", " ".join(texts))
 
 
 def test_direction_name_is_component_or_azimuth():
@@ -79,3 +79,13 @@ def test_fall_direction_is_azimuth_or_axis():
     assert [direction_in_plane(angle, east) for angle in (0.0, 90.0, -135.0)] == ["azimuth 90", "azimuth 0", "azimuth 225"]
     assert direction_in_plane(30.0, motion_of(record, "37")) == "azimuth 7"
     assert direction_in_plane(-45.0, Motion.from_arrays(row, 0.01)) == "+x-y"
+
+
+@pytest.mark.parametrize(("name", "expected"), [("EW", ("NS", 1)), ("NS", ("EW", -1)), ("X", ("y", 1))])
+def test_transverse_component_is_90_degrees_counter_clockwise(name, expected):
+    """+y of a pile under EW points north, under NS west; without azimuths it has no name."""
+    rows = {"NS": np.arange(3.0), "EW": np.ones(3), "X": np.zeros(3)}
+    components = tuple(
+        Component(code, row, {"NS": 0.0, "EW": 90.0, "X": None}[code]) for code, row in rows.items() if (code == "X") == (name == "X")
+    )
+    assert transverse_component(motion_of(Record(components, 0.01), name)) == expected

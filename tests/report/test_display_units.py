@@ -7,18 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seisblock.core.registry import solver_names
 from seisblock.core.results import Histories
-from seisblock.report import units_display
-from seisblock.report.registry import response_figure
-from seisblock.report.units_display import TEXT_DECIMALS, format_length, length_cell, length_unit
+from seisblock.output import units_display
+from seisblock.output.figures.solver import response_figure
+from seisblock.output.units_display import TEXT_DECIMALS, format_length, length_cell, length_unit
 from tests.lengths import all_but_slow
 from tests.report.long_record import response
-from tests.report.test_every_animation import film
+from tests.report.test_every_animation import FILMS, film
 from tests.report.test_every_figure import visible_texts
 
 ROOM = Path(units_display.__file__).parent
-WRITTEN = re.compile(r"(?:\((?:mm|cm|gal|kine|m/s²)\)|\} ?(?:mm|cm|gal|kine|m/s²)(?![\w/]))")
+MASK = re.compile(r"(?:\((?:mm|cm|gal|kine|m/s²)\)|\} ?(?:mm|cm|gal|kine|m/s²)(?![\w/]))")
 """A unit written out behind a number or in a heading."""
 
 AS_GIVEN = {"text/samples.py", "json/infer.py", "figures/style.py", "html/report.py"}
@@ -27,9 +26,9 @@ AS_GIVEN = {"text/samples.py", "json/infer.py", "figures/style.py", "html/report
 
 def test_units_are_defined_in_units_display_only():
     """Every other text of this room takes its unit from there."""
-    found = {str(path.relative_to(ROOM)) for path in ROOM.rglob("*.py") if WRITTEN.search(path.read_text(encoding="utf-8"))}
-    shown = {name for name in found if not name.startswith("exports/")}  # files in the layouts of others have their units
-    assert shown - {"units_display.py"} <= AS_GIVEN
+    text = {str(path.relative_to(ROOM)) for path in ROOM.rglob("*.py") if MASK.search(path.read_text(encoding="utf-8"))}
+    mapping = {name for name in text if not name.startswith("exports/")}  # files in the layouts of others have their units
+    assert mapping - {"units_display.py"} <= AS_GIVEN
 
 
 @pytest.mark.parametrize(
@@ -52,20 +51,20 @@ def test_length_unit_is_mm_below_one_cm(lengths, unit):
 
 def test_format_length_uses_decimals_of_unit():
     """Each unit has its decimals, a tape's in words; nothing has no sign, and what is not known is a dash."""
-    assert [format_length(each) for each in (0.21534, 0.0047, -1e-9, 0.0)] == ["21.5 cm", "4.70 mm", "0.00 mm", "0.0 cm"]
+    assert [format_length(item) for item in (0.21534, 0.0047, -1e-9, 0.0)] == ["21.5 cm", "4.70 mm", "0.00 mm", "0.0 cm"]
     unit = length_unit([0.2], gal=True)
-    assert [length_cell(each, unit) for each in (0.21534, -1e-9, None)] == ["21.53", "0.00", "-"]
+    assert [length_cell(item, unit) for item in (0.21534, -1e-9, None)] == ["21.53", "0.00", "-"]
     assert format_length(0.21534, gal=False) == "0.215 m" and set(TEXT_DECIMALS) == {"mm", "cm", "m"}
 
 
-@pytest.mark.parametrize("model", all_but_slow(solver_names(), {"slide", "rock", "jump"}))
+@pytest.mark.parametrize("model", all_but_slow(FILMS, {"slide", "rock", "jump"}))
 def test_figure_and_animation_use_same_units(model):
-    """What the panels of a figure are in, the strips of its film are in, too; in SI nothing else is left."""
-    for gal, wanted in ((True, {"gal", "kine", "cm", "mm"}), (False, {"m/s²", "m/s", "m"})):
-        drawn = response_figure([response(model)], gal=gal)
-        panels = units_in(text.get_text() for text in visible_texts(drawn))
+    """Panels of a figure and strips of its animation use the same units; with SI no other unit remains."""
+    for gal, expected in ((True, {"gal", "kine", "cm", "mm"}), (False, {"m/s²", "m/s", "m"})):
+        figure = response_figure([response(model)], gal=gal)
+        panels = units_in(text.get_text() for text in visible_texts(figure))
         strips = units_in(strip.label for strip in film(model, 2, gal=gal).strips)
-        assert strips <= panels | {"gal", "m/s²"} and strips <= wanted and panels <= wanted | {"m"}
+        assert strips <= panels | {"gal", "m/s²"} and strips <= expected and panels <= expected | {"m"}
 
 
 def units_in(texts):
@@ -75,12 +74,14 @@ def units_in(texts):
 
 def test_slide_figure_of_small_slip_uses_mm():
     """The unit is that of what is drawn: a hundredth of what the body slid."""
-    found = response("slide")
-    scaled = [replace(each, values=0.01 * each.values) if each.name == "displacement" else each for each in found.channels]
+    solution = response("slide")
+    scaled = [
+        replace(channel, values=0.01 * channel.values) if channel.name == "displacement" else channel for channel in solution.channels
+    ]
     small = replace(
-        found,
-        make_histories=lambda: Histories(found.time, tuple(scaled)),
-        outcome=replace(found.outcome, max_slip_m=0.01 * found.outcome.max_slip_m),
+        solution,
+        make_histories=lambda: Histories(solution.time, tuple(scaled)),
+        outcome=replace(solution.outcome, max_slip_m=0.01 * solution.outcome.max_slip_m),
     )
     (axis,) = [axis for axis in response_figure([small]).axes if axis.get_ylabel() == "x − z (mm)"]
     highest = max(np.nanmax(np.abs(line.get_ydata())) for line in axis.get_lines())

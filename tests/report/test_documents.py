@@ -11,14 +11,14 @@ from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, main
 from seisblock.core.i18n import lazy_gettext
+from seisblock.output.json.encode import to_builtins
+from seisblock.output.json.units import split_unit
 from seisblock.references import REFERENCES, cited_commands, command_papers
-from seisblock.report.json.encode import to_builtins
 from seisblock.report.json.registry import document_commands, document_schemas, json_schema
-from seisblock.report.json.units import split_unit
 from tests.report.document_keys import lines, missing_lines, stored_lines
 
-WITHOUT_DOCUMENT = {"report", "completion", "schema"}
-"""Commands that write a page, a script or a schema."""
+WITHOUT_DOCUMENT = {"app", "completion", "schema", "fetch"}
+"""Commands that serve a page, or write a script, a schema or a folder of records."""
 
 EVERY = (
     "measure",
@@ -33,15 +33,19 @@ EVERY = (
     "rock --width 24cm --height 72cm",
     "rock --block gravestone --component EW --margin --margin-limit 1.1 --perturb 5 --restitution 0.8",
     "rock --block boulder --component all-azimuths",
+    "rock --block gravestone --pga 400 --pgv 40",
     "body boulder.ply --inset 0.1",
     "jump",
     "jump --target-pga 20",
+    "jump --as-printed --side short,long --drop 0,0.3",
     "uplift --width 1.2 --height 3 --frequency-vertical 8 --component NS",
     "uplift --harmonic --frequency-ratio 0.5,1",
     "uplift --harmonic --damping 0,0.05 --frequency-ratio 0.5,1 --corner 4",
+    "rigid3d --width 24cm --height 72cm --mu 0.5 --window 24:30",
     "stack --window 24:25 --runs 2",
     "stack --criterion --grid 14 --contact edges --without mizubachi",
     "criteria --block gravestone",
+    "criteria --block gravestone --pga 400 --frequency 1.6",
     "spectrum --steps 3",
     "spectrum --steps 2 --component all-azimuths",
     "spectrum --kind sliding --mu 0.1,0.2 --vertical --component EW",
@@ -53,6 +57,7 @@ EVERY = (
     "infer --rate 0/100 --cemetery aoyama.csv --frequency 1",
     "infer --slid 5cm --mu 0.3 --steps 3 --component EW",
     "infer --jumped 5cm --steps 2 --component EW",
+    "infer --twist 1 --width 24cm --height 60cm --mu 0.5 --window 24:28 --runs 20",
     "batch --bodies gravestone --component EW --force --out FOLDER/table.csv",
     "map synthetic_knet.EW --block gravestone --mu 0.5 --runs 3",
     "map shafter_1989 --cemetery aoyama.csv",
@@ -60,8 +65,14 @@ EVERY = (
     "10,20,30,40,50,60,80,160 --perturb 4 --bootstrap 20 --compare 50,0.4",
     "fragility synthetic_jma elcentro_1940_ns.csv synthetic_knet.EW --mu 0.1 --solver slide --steps 16 --method ida --bootstrap 20",
     "fit shaken_block.csv --width 227mm --height 891mm --free alpha --scatter 0.05 --lapse 0.02 --runs 4",
+    "paper",
+    "paper tsutsui table1",
+    "paper fujino1978 fig7 elcentro_1940_ns.csv",
     "validate --paper Tsutsui",
+    "scenario synthetic_jma elcentro_1940_ns.csv --bodies statue --bodies gravestone --pga 400",
+    "secure synthetic_jma --width 24cm --height 72cm --mu 0.5 --pga 400",
     "risk --median 60cm/s --beta 0.4 --hazard synthetic_hazard.csv --stood 1000",
+    "report --body gravestone --body 60cmx100cm --window 22:29",
     "cite jump",
     "cite",
     "samples",
@@ -73,12 +84,14 @@ PURE_NUMBERS = re.compile(
       .*_?(ratio|ratios|magnitude|count|counts|rate|interval|probability|confidence|scale|limit|steps?|index|corners?|changes|stones|points|friction_demand|friction_to_rock|friction_needed_at_landing)
     | (ratio|rate|probability|threshold_ratio|jma_intensity)_(interval|range|reinforced)
     | (first|last|nearest_flip|flips|flips_at_factor|first_fall|falls_above_first|largest_at_scale|factor|spread)  # factors on a record
+    | (least|greatest|onset)_factor | factor_to_overturn
     | (size|slenderness|amplitude|inset|share|(rocking_)?restitution(_[xy])?)  # shares, and ratios of velocities
     | (alpha|beta|gamma|kappa|mu|mu_kinetic|damping|r|over_omega_v|height_over_width|b_over_h)
-    | (common_error|stone_error|bias)_ln_pga | frequency_error_ln_f | momentum_error | jma_intensity | share_on_corners | counts_by_kind
-    | (expected|residual)_jma_intensity
+    | (common_error|stone_error|bias)_ln_pga | frequency_error_ln_f | momentum_error | (target_)?jma_intensity
+    | share_on_corners | counts_by_kind
+    | (expected|residual)_jma_intensity | both | neither | (computed|observed)_only  # numbers of stones
     | (latitude|longitude)  # degrees, under the names that maps and surveys have
-    | (falls|models|runs|samples|seed|impacts|reversals|flights|jams|ratios_lowered|initial|year)
+    | (falls|models|(effective_)?runs|samples|seed|impacts|reversals|flights|jams|ratios_lowered|initial|year)
     | im | ((non_monotone|censored)_)?(records|motions) | exceeding | versions | without_curve  # of a fragility; the unit is its result's
     | no_answer
     | beta_(interval|alone|record_to_record|parameter|sum) | perturb | bootstrap
@@ -94,14 +107,14 @@ PURE_NUMBERS = re.compile(
 @pytest.fixture(scope="module")
 def documents(tmp_path_factory):
     """Return a function that runs a command line once and returns its document."""
-    known, folder = {}, str(tmp_path_factory.mktemp("written"))
+    expected, folder = {}, str(tmp_path_factory.mktemp("written"))
 
     def run(line):
-        if line not in known:
+        if line not in expected:
             answer = CliRunner().invoke(main, [*line.replace("FOLDER", folder).split(), "--json"])
             assert answer.exit_code == 0, answer.stderr
-            known[line] = json.loads(answer.stdout)
-        return known[line]
+            expected[line] = json.loads(answer.stdout)
+        return expected[line]
 
     return run
 
@@ -114,8 +127,8 @@ def test_documents_validate_against_their_schema(line, documents):
     for definition in schema["$defs"].values():
         if "properties" in definition:
             definition["additionalProperties"] = False
-    wrong = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(documents(line)))
-    assert wrong is None, f"{wrong.json_path}: {wrong.message}"
+    invalid = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(documents(line)))
+    assert invalid is None, f"{invalid.json_path}: {invalid.message}"
 
 
 @pytest.mark.parametrize("line", EVERY)
@@ -131,14 +144,14 @@ def test_every_document_kind_has_schema_and_example(documents):
     """A command without schema writes no document; each kind of document is among those validated."""
     assert set(COMMANDS) - WITHOUT_DOCUMENT == set(document_commands())
     for command in document_commands():
-        told = [set(documents(line)["parameters"]) for line in EVERY if line.split()[0] == command]
+        answer = [set(documents(line)["parameters"]) for line in EVERY if line.split()[0] == command]
         for kind in document_schemas(command):
-            assert set(kind.parameters.__struct_fields__) in told, f"{command}: no example of {kind.name or 'its document'}"
+            assert set(kind.parameters.__struct_fields__) in answer, f"{command}: no example of {kind.name or 'its document'}"
 
 
 @pytest.mark.parametrize("command", document_commands())
 def test_document_keys_equal_stored_keys(command):
-    """What is written down in ``keys`` still holds, or the version was stepped; what is new is written down too."""
+    """Keys of documents equal the stored ones, or the version was increased."""
     assert missing_lines(command) == [], f"{command}: keys went or changed; step its version in present/documents/versions.py"
     assert stored_lines(command) == lines(command), "write the keys down: python -m tests.report.document_keys"
 
@@ -174,9 +187,9 @@ def test_schema_keys_have_descriptions(command):
     """Results carry the docstrings of the library: most keys have a description, none is left as markup."""
     definitions = json_schema(command)["$defs"]
     shapes = [shape for definition in definitions.values() for shape in definition.get("properties", {}).values()]
-    told = [shape["description"] for shape in shapes if "description" in shape]
-    assert len(told) > 0.4 * len(shapes)
-    assert not [text for text in told if ("``" in text and text.count("``") % 2) or ":class:" in text or "]_" in text]
+    rows = [shape["description"] for shape in shapes if "description" in shape]
+    assert len(rows) > 0.4 * len(shapes)
+    assert not [text for text in rows if ("``" in text and text.count("``") % 2) or ":class:" in text or "]_" in text]
     keys = definitions[f"{command.capitalize()}Result"]["properties"]
     assert {shape.get("unit") for key, shape in keys.items() if key.endswith("_s")} <= {"s", "m/s", "rad/s"}
 
@@ -186,7 +199,7 @@ def test_schema_command_prints_schema_and_list():
     printed = CliRunner().invoke(main, ["schema", "rock"])
     assert json.loads(printed.stdout) == json_schema("rock")
     assert CliRunner().invoke(main, ["schema"]).stdout.split() == [document_schemas(name)[0].schema for name in document_commands()]
-    assert CliRunner().invoke(main, ["schema", "report"]).exit_code == 2
+    assert CliRunner().invoke(main, ["schema", "completion"]).exit_code == 2
 
 
 def test_encode_handles_numpy_paths_messages_and_nan():
@@ -204,8 +217,8 @@ def test_encode_handles_numpy_paths_messages_and_nan():
 
 def test_documents_of_several_records_index_each_result(documents):
     """One record stands by itself; of several, `record_index` is the place in the list."""
-    one, two = documents("slide --mu 0.2"), documents("slide --mu 0.2 synthetic_knet.EW synthetic_jma --component EW")
-    assert isinstance(one["record"], dict) and "record_index" not in one["results"][0]
+    first, two = documents("slide --mu 0.2"), documents("slide --mu 0.2 synthetic_knet.EW synthetic_jma --component EW")
+    assert isinstance(first["record"], dict) and "record_index" not in first["results"][0]
     assert [record["format"] for record in two["record"]] == ["knet", "jma-csv"] or len(two["record"]) == 2
     assert [result["record_index"] for result in two["results"]] == [0, 1]
     assert list(two["results"][0])[:2] == ["record_index", "component"]

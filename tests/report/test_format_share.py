@@ -5,9 +5,10 @@ from dataclasses import replace
 import pytest
 
 from seisblock.core.i18n import use_locale
+from seisblock.output.figures.solver import response_figure
+from seisblock.output.text.solver import describe as verdict_text
 from seisblock.report.html.report_text import sentences, verdict
-from seisblock.report.registry import response_figure, verdict_text
-from seisblock.studies.assessment import ModelResponse
+from seisblock.studies.report.responses import ModelResponse
 from tests.report.long_record import response
 
 SMALL = {"en": "less than 1 % of the overturning angle", "ja": "転倒限界角の 1 % 未満"}
@@ -16,51 +17,53 @@ SMALL = {"en": "less than 1 % of the overturning angle", "ja": "転倒限界角�
 @pytest.mark.parametrize("lang", SMALL)
 def test_tilt_below_one_percent_has_same_text_everywhere(lang):
     """The line of the text, the line on the page's card and the sentence below it; none of them says 0 %."""
-    found = response("rock")
-    faint = replace(found, outcome=replace(found.outcome, overturned=False, overturned_towards=None, rocks=True, max_rotation_ratio=0.004))
+    solution = response("rock")
+    faint = replace(
+        solution, outcome=replace(solution.outcome, overturned=False, overturned_towards=None, rocks=True, max_rotation_ratio=0.004)
+    )
     with use_locale(lang):
-        effect = ModelResponse("rock", faint, None, None)
-        told = [verdict_text(faint), verdict(effect), " ".join(sentences(effect))]
-    assert [text for text in told if SMALL[lang] in text] == told
-    assert not [text for text in told if " 0 %" in text]
+        effect = ModelResponse(faint, None, None)
+        output = [verdict_text(faint), verdict(effect), " ".join(sentences(effect))]
+    assert [text for text in output if SMALL[lang] in text] == output
+    assert not [text for text in output if " 0 %" in text]
 
 
 def test_best_estimate_uses_same_share_text():
-    """What rocks a little while it slides."""
-    found = response("respond")
-    time = {**found.outcome.time_in_mode_s, "rock": 1.0}
-    changed = replace(found.outcome, outcome="moves", overturned=False, time_in_mode_s=time, max_rotation_ratio=0.004)
+    """A slight rocking during sliding has the same text everywhere."""
+    solution = response("respond")
+    time = {**solution.outcome.time_in_mode_s, "rock": 1.0}
+    changed = replace(solution.outcome, outcome="moves", overturned=False, time_in_mode_s=time, max_rotation_ratio=0.004)
     with use_locale("en"):
-        assert "rocks slightly (peak tilt less than 1 % of the overturning angle)" in verdict_text(replace(found, outcome=changed))
+        assert "rocks slightly (peak tilt less than 1 % of the overturning angle)" in verdict_text(replace(solution, outcome=changed))
 
 
-@pytest.mark.parametrize(("lang", "said"), [("en", "NS: slides less than 0.01 mm in total."), ("ja", "NS：滑動 合計 0.01 mm 未満")])
-def test_tiny_slip_is_not_reported_as_zero(lang, said):
+@pytest.mark.parametrize(("lang", "message"), [("en", "NS: slides less than 0.01 mm in total."), ("ja", "NS：滑動 合計 0.01 mm 未満")])
+def test_tiny_slip_is_not_reported_as_zero(lang, message):
     """The sentence of ``slide``, as that of ``jump`` does; the card of a report does, too."""
-    found = response("slide")
+    solution = response("slide")
     faint = dict.fromkeys(("max_slip_m", "path_m", "residual_slip_m", "final_slip_m"), 1e-6)
-    outcome = replace(found.outcome, slips=True, fell_off_slope=False, lifted_off=False, **faint)
-    changed = replace(found, outcome=outcome, motion=replace(found.motion, name="NS"))
+    outcome = replace(solution.outcome, slips=True, fell_off_slope=False, lifted_off=False, **faint)
+    changed = replace(solution, outcome=outcome, motion=replace(solution.motion, name="NS"))
     with use_locale(lang):
-        assert verdict_text(changed) == said
-        assert "0.01 mm" in verdict(ModelResponse("slide", changed, None, None))
+        assert verdict_text(changed) == message
+        assert "0.01 mm" in verdict(ModelResponse(changed, None, None))
 
 
 def test_rock_figure_title_states_outcome():
     """As that of the governing answer does: above the ground motion."""
-    found = response("rock")
-    for fell, told in ((True, ": overturned; "), (False, ": rocking; ")):
-        outcome = replace(found.outcome, rocks=True, overturned=fell, overturned_towards="+x" if fell else None)
+    solution = response("rock")
+    for fell, text in ((True, ": overturned; "), (False, ": rocking; ")):
+        outcome = replace(solution.outcome, rocks=True, overturned=fell, overturned_towards="+x" if fell else None)
         with use_locale("en"):
-            titles = [axis.get_title(loc="left") for axis in response_figure([replace(found, outcome=outcome)]).axes]
-        assert any(told in title for title in titles), titles
+            titles = [axis.get_title(loc="left") for axis in response_figure([replace(solution, outcome=outcome)]).axes]
+        assert any(text in title for title in titles), titles
 
 
 def test_response_repr_is_one_line():
     """Model, body, direction, the first facts and how it ended; of many things the page says how many it leaves out."""
-    found = response("respond")
-    assert len(repr(found)) < 300 and repr(found).startswith("<Response respond of ") and "overturned=" in repr(found)
+    solution = response("respond")
+    assert len(repr(solution)) < 300 and repr(solution).startswith("<Response respond of ") and "overturned=" in repr(solution)
     with use_locale("en"):
-        shown = found._repr_html_()
-    count = len(found.outcome.events)
-    assert count > 8 and f"events (8 of {count})" in shown
+        output = solution._repr_html_()
+    count = len(solution.outcome.events)
+    assert count > 8 and f"events (8 of {count})" in output

@@ -6,14 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seisblock import Block, Contact, SlidingBase, motion_of, read, solve_jump, solve_respond, solve_rock, solve_slide
+from seisblock import Block, Contact, Motion, SlidingBase, motion_of, read, solve_jump, solve_respond, solve_rock, solve_slide
 from seisblock.criteria.compare import CriterionResult
+from seisblock.models.jump.describe import describe as jump_verdict
+from seisblock.models.respond.describe import describe as respond_verdict
+from seisblock.models.rock.describe import describe
+from seisblock.models.slide.describe import describe as slide_sentence
+from seisblock.output.text.tables import impacts_cell, tilt_ratio_cell
+from seisblock.output.text.threshold import SLIDES, threshold_text
 from seisblock.report.text.criteria import format_ratio
-from seisblock.report.text.jump import describe as jump_verdict
-from seisblock.report.text.respond import describe as respond_verdict
-from seisblock.report.text.rock import describe
-from seisblock.report.text.slide import describe as slide_sentence
-from seisblock.report.text.threshold import SLIDES, threshold_text
 from tests.report.long_record import PAVILION, motion
 
 
@@ -21,14 +22,14 @@ def test_no_motion_headline_states_factor_to_move():
     """Whatever rests answers with the shaking that would move it, and with how many times the record's peak that is."""
     still = motion("NS", 0.1)
     peak = np.abs(still.horizontal).max()
-    found = {
+    solution = {
         describe(solve_rock(Block(0.3, 0.9), still, vertical=False)): 9.80665 / 3.0,
         slide_sentence(solve_slide(SlidingBase(0.3), still, vertical=False)): 0.3 * 9.80665,
         respond_verdict(solve_respond(Block(0.45, 1.8), still, mu=0.2, vertical=False)): 0.2 * 9.80665,
         jump_verdict(solve_jump(PAVILION, still, contact=Contact(mu=0.18))): 4.6124,
     }
-    for told, level in found.items():
-        acceleration, times = map(float, re.search(r"threshold (\S+) gal \((\S+) times this record's PGA", told).groups())
+    for text, level in solution.items():
+        acceleration, times = map(float, re.search(r"threshold (\S+) gal \((\S+) times this record's PGA", text).groups())
         assert acceleration == pytest.approx(100.0 * level, abs=0.06) and times == pytest.approx(level / peak, rel=6e-3)
     above = replace(still, rows=40.0 * still.rows)
     assert threshold_text(SLIDES, (0.2, 0.2), above, gravity=10.0, gal=False) == "sliding threshold 2.0000 m/s²"
@@ -68,5 +69,18 @@ def test_factor_to_move_uses_peak_towards_weaker_side(offset):
 
 def test_ratio_near_one_shows_enough_digits():
     """1.00 stands and 1.00 falls are not told apart: there are as many digits as it takes."""
-    for demand, told in ((0.9996, "0.9996"), (1.0, "1.00"), (1.0 + 1e-5, "1.00001"), (1.0 + 1e-9, "1.000000"), (1.02, "1.02")):
-        assert format_ratio(CriterionResult("criterion", "where", "m/s^2", None, None, 1.0, demand, demand > 1.0)) == told
+    for demand, text in ((0.9996, "0.9996"), (1.0, "1.00"), (1.0 + 1e-5, "1.00001"), (1.0 + 1e-9, "1.000000"), (1.02, "1.02")):
+        assert format_ratio(CriterionResult("criterion", "where", "m/s^2", None, None, 1.0, demand, demand > 1.0)) == text
+
+
+def test_factor_just_above_threshold_is_not_one():
+    """A body that remains at rest by a hair does not need "1.00 times this record"."""
+    peak = 2.0 / 1.0004
+    text = threshold_text(SLIDES, (0.2, 0.2), Motion.from_arrays([0.0, peak, 0.0], 0.01), gravity=10.0)
+    assert "(1.0004 times" in text
+
+
+def test_impacts_and_tilt_of_fallen_or_hardly_rocking_block_are_readable():
+    """A fallen block has no ratio of tilts, and a tilt of 0.02 degrees no 1381 impacts."""
+    assert tilt_ratio_cell(6.412, overturned=True) == ">1"
+    assert (impacts_cell(1381, 0.001), impacts_cell(1381, 0.01)) == ("negligible", "1381")

@@ -1,4 +1,4 @@
-"""What a figure shows of a long record is what was computed: each point in view, and one line that names the record."""
+"""Figures of long records show the computed response: every point in view, and a line that names the record."""
 
 import re
 
@@ -8,31 +8,32 @@ from scipy.integrate import cumulative_simpson
 
 from seisblock import Block, Contact, SlidingBase, solve_jump, solve_respond, solve_rock, solve_slide
 from seisblock.measures import measure
-from seisblock.models.jump.chain import FLIGHT, ROCKING
+from seisblock.models.jump.chain import JumpPhase
+from seisblock.models.jump.interpolate import POINTS_PER_PHASE, interpolate_phases
+from seisblock.output.figures.curves import MAX_POINTS, decimate
+from seisblock.output.figures.solver import response_figure
 from seisblock.records import Motion, Preparation, motion_of
 from seisblock.records.process import crop
-from seisblock.report.figures.curves import MAX_POINTS, decimate
-from seisblock.report.figures.interpolate import POINTS_PER_PHASE, interpolate_phases
 from seisblock.report.figures.measure import measure_figure
-from seisblock.report.registry import response_figure
 from tests.report.long_record import DT, PAVILION, SAMPLES, SOLVED, motion, record, response
 
 VERTICES = 5
 """Of a bar, whose last is its first."""
 
 
-def tilt_until_fall(found, name):
+def tilt_until_fall(result, name):
     """Return the tilt of a stone, and nothing from its fall on."""
-    (fell,) = (stone.fell_at_s for stone in found.outcome.stones if stone.name == name)
-    return np.where(found.time <= fell, found[f"{name}_tilt"], np.nan)
+    (fell,) = (stone.fell_at_s for stone in result.outcome.stones if stone.name == name)
+    return np.where(result.time <= fell, result[f"{name}_tilt"], np.nan)
 
 
-DRAWN = {
+MAPPING = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ/α": r["rotation"] / min(r.body.slendernesses)},
     "rock": lambda r: {"θ/α": r["rotation"] / r.outcome.slenderness_rad, "a (gal)": 100.0 * r["ground_acceleration"]},
     "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"], "v (kine)": 100.0 * (r["ground_velocity"] + r["velocity"])},
     "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "x of G (cm)": 100.0 * r["displacement"]},
     "uplift": lambda r: {f"u{'₁₂₃₄'[i]} (cm)": 100.0 * r[f"uplift_{i + 1}"] for i in range(4)},
+    "rigid3d": lambda r: {"tilt (deg)": np.degrees(r["tilt"]), "displacement (cm)": 100.0 * (r["x"] - r["x"][0])},
     "stack": lambda r: {"tilt θ (deg)": np.degrees(tilt_until_fall(r, "sao")), "slip s (cm)": 100.0 * r["base_slip"]},
 }
 """What each model's figure shows of its response, by the label of the panel's axis."""
@@ -46,75 +47,78 @@ def line_deviation(axis, line, time, values):
     assert inside.sum() > 50
     low, high = axis.get_ylim()
     if inside.sum() <= MAX_POINTS:
-        shown = (x >= first) & (x <= last) & ~np.isnan(y)
-        shown &= np.isin(x, time)  # between them a flight has more points than the response
-        if not np.array_equal(x[shown], time[inside]):
+        mask = (x >= first) & (x <= last) & ~np.isnan(y)
+        mask &= np.isin(x, time)  # between them a flight has more points than the response
+        if not np.array_equal(x[mask], time[inside]):
             return np.inf  # another line of the panel
-        return np.abs(y[shown] - values[inside]).max() / (high - low)
+        return np.abs(y[mask] - values[inside]).max() / (high - low)
     # as many points as that are told apart by no eye: the extrema of each 2000th of the view
     edges = np.linspace(first, last, 501)
-    bins, drawn = (np.digitize(each, edges) for each in (time[inside], x))
+    bins, curve = (np.digitize(item, edges) for item in (time[inside], x))
     worst = 0.0
     for index in np.unique(bins):
-        true, seen = values[inside][bins == index], y[drawn == index]
-        if not seen.size:
+        true, observed = values[inside][bins == index], y[curve == index]
+        if not observed.size:
             return np.inf
-        worst = max(worst, abs(true.max() - seen.max()), abs(true.min() - seen.min()))
+        worst = max(worst, abs(true.max() - observed.max()), abs(true.min() - observed.min()))
     return worst / (high - low)
 
 
 @pytest.mark.parametrize("model", SOLVED)
 def test_history_draws_every_point_in_view(model):
     """F1: no curve is thinned before it is cut to what is shown; what was computed and what the artists hold are compared."""
-    found = response(model)
-    figure = response_figure([found])
+    solution = response(model)
+    figure = response_figure([solution])
     figure.canvas.draw()
-    for text, values in DRAWN[model](found).items():
+    for text, values in MAPPING[model](solution).items():
         (axis,) = [axis for axis in figure.axes if axis.get_ylabel() == text]
         lines = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
-        told = np.isfinite(values)
-        assert min(line_deviation(axis, line, found.time[told], values[told]) for line in lines) < 0.01
+        value = np.isfinite(values)
+        assert min(line_deviation(axis, line, solution.time[value], values[value]) for line in lines) < 0.01
 
 
 def test_svg_path_equals_response_within_half_pixel(tmp_path):
     """F1: the path in an .svg, taken back to seconds and degrees, is nowhere half a pixel from the response."""
-    found = response("jump")
-    figure = response_figure([found])
+    solution = response("jump")
+    figure = response_figure([solution])
     (axis,) = [axis for axis in figure.axes if axis.get_ylabel() == "θ (deg)"]
     (line,) = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
     line.set_gid("tilt")
     path = tmp_path / "tilt.svg"
     figure.savefig(path)
-    drawn = re.search(r'<g id="tilt">\s*<path d="([^"]+)"', path.read_text(encoding="utf-8"))[1]
-    points = np.array([[float(n) for n in pair] for pair in re.findall(r"[ML] (\S+) (\S+)", drawn)])
+    text = re.search(r'<g id="tilt">\s*<path d="([^"]+)"', path.read_text(encoding="utf-8"))[1]
+    points = np.array([[float(n) for n in pair] for pair in re.findall(r"[ML] (\S+) (\S+)", text)])
     points[:, 1] = figure.get_figheight() * 72 - points[:, 1]
     data = axis.transData.inverted().transform(points * figure.dpi / 72)
     first, last = axis.get_xlim()
-    inside = (found.time > first) & (found.time < last) & np.append(True, np.diff(found.time) > 0)
-    tilt = np.degrees(found["rotation"])[inside]
+    inside = (solution.time > first) & (solution.time < last) & np.append(True, np.diff(solution.time) > 0)
+    tilt = np.degrees(solution["rotation"])[inside]
     pixel = (axis.get_ylim()[1] - axis.get_ylim()[0]) / axis.bbox.height
-    assert np.abs(np.interp(found.time[inside], *data.T) - tilt).max() < 2.0 * pixel
+    assert np.abs(np.interp(solution.time[inside], *data.T) - tilt).max() < 2.0 * pixel
 
 
 def test_flight_is_drawn_as_parabola():
     """Between two samples a body in the air is where gravity and the ground, as straight as its samples, bring it."""
-    found = response("jump")
-    time, drawn = interpolate_phases(found)
-    flights = [phase for phase in found.phases if phase.name == FLIGHT]
+    solution = response("jump")
+    time, curve = interpolate_phases(solution)
+    flights = [phase for phase in solution.phases if phase.name == JumpPhase.FLIGHT]
     assert len(flights) > 2
     for flight in flights:
-        seen = (time > flight.start_s) & (time < flight.end_s)
-        assert seen.sum() >= POINTS_PER_PHASE[FLIGHT] - 1
-        steps = np.append(flight.start_s, time[seen]) - flight.start_s
-        low, high = found["height"][np.searchsorted(found.time, flight.start_s)], found["height"][np.searchsorted(found.time, flight.end_s)]
+        mask = (time > flight.start_s) & (time < flight.end_s)
+        assert mask.sum() >= POINTS_PER_PHASE[JumpPhase.FLIGHT] - 1
+        steps = np.append(flight.start_s, time[mask]) - flight.start_s
+        low, high = (
+            solution["height"][np.searchsorted(solution.time, flight.start_s)],
+            solution["height"][np.searchsorted(solution.time, flight.end_s)],
+        )
         long = flight.end_s - flight.start_s
         parabola = low + (high - low) * steps / long + 9.80665 / 2 * steps * (long - steps)
-        assert np.abs(drawn["height"][seen] - parabola[1:]).max() < 1e-7
+        assert np.abs(curve["height"][mask] - parabola[1:]).max() < 1e-7
     # one flight again, by Simpson's rule, twice, of the ground
     flight = max(flights, key=lambda phase: phase.duration_s)
     inside = (time >= flight.start_s) & (time <= flight.end_s)
-    t, x = time[inside][1:-1], drawn["displacement"][inside][1:-1]
-    push = -np.interp(t, found.motion.time, found.motion.horizontal)
+    t, x = time[inside][1:-1], curve["displacement"][inside][1:-1]
+    push = -np.interp(t, solution.motion.time, solution.motion.horizontal)
     speed = cumulative_simpson(push, x=t, initial=0.0)
     path = cumulative_simpson(speed, x=t, initial=0.0)
     assert np.ptp(x - path - np.polyval(np.polyfit(t, x - path, 1), t)) < 1e-6
@@ -126,18 +130,18 @@ def test_rocking_between_samples_is_drawn_as_arc():
     push = np.where(time < 0.03, 9.0, -4.0)
     shaken = Motion.from_arrays(push, 0.01)
     often = Motion.from_arrays(np.interp(np.arange(601) * 0.001, time, push), 0.001)
-    found, truth = (solve_jump(PAVILION, each, contact=Contact(mu=0.18), first=True) for each in (shaken, often))
-    (rocking,) = [phase for phase in found.phases if phase.name == ROCKING]
-    drawn_at, drawn = interpolate_phases(found)
-    for name, values in drawn.items():
-        inside, seen = ((each >= rocking.start_s) & (each <= rocking.end_s) for each in (truth.time, drawn_at))
+    result, truth = (solve_jump(PAVILION, item, contact=Contact(mu=0.18), first=True) for item in (shaken, often))
+    (rocking,) = [phase for phase in result.phases if phase.name == JumpPhase.ROCKING]
+    drawn_at, curve = interpolate_phases(result)
+    for name, values in curve.items():
+        inside, observed = ((item >= rocking.start_s) & (item <= rocking.end_s) for item in (truth.time, drawn_at))
         true, high = truth[name][inside], np.ptp(truth[name][inside])
-        assert np.abs(np.interp(truth.time[inside], drawn_at[seen], values[seen]) - true).max() < 0.01 * high
-        assert np.abs(np.interp(truth.time[inside], found.time, found[name]) - true).max() > 0.03 * high
+        assert np.abs(np.interp(truth.time[inside], drawn_at[observed], values[observed]) - true).max() < 0.01 * high
+        assert np.abs(np.interp(truth.time[inside], result.time, result[name]) - true).max() > 0.03 * high
 
 
 def test_narrower_view_is_not_thinned():
-    """What is thinned in one view is whole in a narrower one."""
+    """A narrower view of a thinned history is complete."""
     figure = measure_figure(record(), measure(record()))
     axis = next(axis for axis in figure.axes if axis.get_title(loc="left").startswith("NS   PGV"))
     axis.set_xlim(0.0, 300.0)
@@ -155,14 +159,14 @@ def test_thinning_keeps_extremes_and_gaps():
     assert x.size < 1100 and np.all(np.diff(x) > 0)
     wide = 100
     for start in range(0, 50_000, wide):
-        part, kept = values[start : start + wide], y[(x >= start) & (x < start + wide)]
+        part, remaining = values[start : start + wide], y[(x >= start) & (x < start + wide)]
         if not np.isnan(part).all():
-            assert np.nanmin(kept) == np.nanmin(part) and np.nanmax(kept) == np.nanmax(part)
+            assert np.nanmin(remaining) == np.nanmin(part) and np.nanmax(remaining) == np.nanmax(part)
     assert np.isnan(y[(x >= 20_000) & (x < 20_400)]).all()
 
 
 def test_thinning_keeps_points_of_quiet_part():
-    """Where ten thousand hops share a second, the minute before it is drawn as finely as ever; every point of a bin in time counts."""
+    """Thinning keeps every point of the quiet part beside ten thousand bounces in one second."""
     quiet, crowd = np.arange(0.0, 60.0, 0.02), np.linspace(60.0, 61.0, 300_000)
     time, values = np.concatenate([quiet, crowd]), np.sin(np.concatenate([quiet, 500.0 * crowd]))
     x, y = decimate(time, values, 4000)
@@ -172,7 +176,7 @@ def test_thinning_keeps_points_of_quiet_part():
 
 
 def test_title_lists_processing_steps():
-    """What was done to the samples is named, without its particulars; a title that is too long is cut, and ends in the figure."""
+    """The title lists the processing steps without details; a long title is cut within the figure."""
     prepared = Preparation(highpass_hz=0.1, scale=1.23456789).apply(record())
     figure = response_figure([solve_slide(SlidingBase(0.15), motion_of(prepared, "37"))])
     assert figure.heading.get_text().endswith("37°   high-pass 0.1 Hz; scaled by 1.235")
@@ -184,34 +188,34 @@ def test_title_lists_processing_steps():
 
 def test_long_record_view_contains_all_motion():
     """The view holds all motion; the whole record stands as a strip above it, and not where the view shows all of it."""
-    found = response("slide")
-    figure = response_figure([found])
+    solution = response("slide")
+    figure = response_figure([solution])
     strip, *panels = figure.axes
     assert strip.get_xlim() == (0.0, pytest.approx(DT * (SAMPLES - 1)))
     first, last = panels[0].get_xlim()
-    slips = [phase for phase in found.phases if phase.name.startswith("slip")]
+    slips = [phase for phase in solution.phases if phase.name.startswith("slip")]
     assert first <= slips[0].start_s and slips[-1].end_s <= last and last - first < 100.0
     short = motion_of(crop(record(), first, last), "NS")
     assert len(response_figure([solve_slide(SlidingBase(0.15), short)]).axes) == 3
 
 
 def test_overview_strip_of_cropped_record_is_labelled():
-    """What was cut out of a record is said to be that, in the strip above its strong part."""
-    for shown, told in ((record(), "NS, full record"), (crop(record(), 40.0, 200.0), "NS, cropped record")):
-        strip, *_ = response_figure([solve_slide(SlidingBase(0.15), motion_of(shown, "NS"))]).axes
-        assert strip.get_title(loc="left").startswith(told)
+    """The strip above the strong part labels a cropped record as such."""
+    for output, text in ((record(), "NS, full record"), (crop(record(), 40.0, 200.0), "NS, cropped record")):
+        strip, *_ = response_figure([solve_slide(SlidingBase(0.15), motion_of(output, "NS"))]).axes
+        assert strip.get_title(loc="left").startswith(text)
 
 
 def test_visible_phases_are_shaded():
     """F1: what is too short for a band is so in what is shown, not in the whole of a long record."""
-    found = response("rock")
-    (axis,) = [axis for axis in response_figure([found]).axes if axis.get_ylabel() == "θ/α" and axis.patches]
+    solution = response("rock")
+    (axis,) = [axis for axis in response_figure([solution]).axes if axis.get_ylabel() == "θ/α" and axis.patches]
     first, last = axis.get_xlim()
-    shaded = [phase for phase in found.phases if phase.name != "rest" and phase.duration_s > (last - first) / 2000]
+    shaded = [phase for phase in solution.phases if phase.name != "rest" and phase.duration_s > (last - first) / 2000]
     bands = [band for patch in axis.patches for band in patch.get_path().vertices[:, 0].reshape(-1, VERTICES)]
     assert sorted((band.min(), band.max()) for band in bands) == sorted((phase.start_s, phase.end_s) for phase in shaded)
     assert len(axis.patches) == len({phase.name for phase in shaded})
-    assert len(shaded) > len([phase for phase in shaded if phase.duration_s > found.time[-1] / 2000]) > 3
+    assert len(shaded) > len([phase for phase in shaded if phase.duration_s > solution.time[-1] / 2000]) > 3
 
 
 def test_block_at_rest_has_ground_motion_panel_only():
@@ -224,7 +228,7 @@ def test_block_at_rest_has_ground_motion_panel_only():
 
 
 @pytest.mark.parametrize(
-    ("solve", "told"),
+    ("solve", "message"),
     [
         (lambda faint: solve_rock(Block(0.3, 0.9), faint), "rocking threshold 327 gal"),
         (lambda faint: solve_slide(SlidingBase(0.3), faint), "sliding threshold 294 gal"),
@@ -233,13 +237,13 @@ def test_block_at_rest_has_ground_motion_panel_only():
     ],
     ids=["rock", "slide", "respond", "jump"],
 )
-def test_weak_record_fills_its_panel(solve, told):
+def test_weak_record_fills_its_panel(solve, message):
     """A record of 3 gal is no line between limits of 300: the panel is as high as what shakes, and its key says where the limits are."""
     faint = motion("NS", 0.007)
     _, axis = response_figure([solve(faint)]).axes
     peak = 100.0 * np.abs(faint.horizontal).max()
     assert axis.get_ylim() == pytest.approx((-1.15 * peak, 1.15 * peak))
-    assert [text.get_text() for text in axis.get_legend().get_texts()] == [f"off scale: {told}"]
+    assert [text.get_text() for text in axis.get_legend().get_texts()] == [f"off scale: {message}"]
     assert len([line for line in axis.get_lines() if line.get_xdata().size]) == 1 and not axis.collections
 
 
@@ -248,6 +252,6 @@ def test_overturning_limit_is_labelled_only_when_visible(height):
     """F3: the phase plane of a block that leans a little shows no edge, and its legend names none."""
     figure = response_figure([solve_rock(Block(0.3, height), motion())])
     plane = next(axis for axis in figure.axes if axis.get_ylabel() == "θ'/(p α)")
-    named = [line for line in plane.get_lines() if not line.get_label().startswith("_")]
-    assert all(line.get_path().transformed(line.get_transform()).intersects_bbox(plane.bbox, filled=False) for line in named)
-    assert (plane.get_legend() is not None) == bool(named)
+    items = [line for line in plane.get_lines() if not line.get_label().startswith("_")]
+    assert all(line.get_path().transformed(line.get_transform()).intersects_bbox(plane.bbox, filled=False) for line in items)
+    assert (plane.get_legend() is not None) == bool(items)

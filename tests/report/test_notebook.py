@@ -1,5 +1,6 @@
 """A response shows itself in a notebook: a table, a figure, a data frame."""
 
+import contextlib
 import html
 import re
 
@@ -8,10 +9,18 @@ import pytest
 from matplotlib.figure import Figure
 
 import seisblock
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.factory import load_block
+from seisblock.bodies.pile.toml import load_pile
+from seisblock.bodies.scan.toml import load_scan
+from seisblock.bodies.spring_factory import load_springs
+from seisblock.bodies.two_layer import load_contact, load_two_layer
 from seisblock.core.errors import ParameterError
+from seisblock.core.registry import solver_names
 from seisblock.core.results import Response
+from seisblock.output.text.solver import describe as verdict_text
 from seisblock.records import Motion
-from seisblock.report.registry import verdict_text
+from seisblock.samples import list_samples
 
 MOTION = Motion.from_arrays(5.5 * np.sin(2 * np.pi * 1.2 * np.arange(401) * 0.01), 0.01, name="EW")
 BLOCK, SPRINGS = seisblock.Block(0.3, 0.9), seisblock.SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7)
@@ -62,7 +71,7 @@ def test_to_dataframe_has_column_per_channel(response):
 def test_plot_of_unsupported_model_lists_supported_models():
     """The message lists those that have one."""
     unknown = Response("knit", None, Motion.from_arrays(np.zeros(3), 0.01), None)
-    with pytest.raises(ParameterError, match="available: jump, respond, rock, slide, stack, uplift"):
+    with pytest.raises(ParameterError, match=f"available: {', '.join(sorted(solver_names()))}$"):
         unknown.plot()
 
 
@@ -98,3 +107,30 @@ def test_measures_repr_html_is_a_table():
         "<img" not in text and "pga (gal)" in text and "pgv (kine)" in text and "arias (m/s)" in text and f"JMA {answer.jma_class}" in text
     )
     assert all(f">{part.code}</td>" in text for part in record.components)
+
+
+def test_assessment_repr_html_begins_with_headline():
+    """Class and probability first, then the models as a table; a single run says that it is one."""
+    assessment = seisblock.assess(BLOCK, MOTION, mu=0.5, runs=10)
+    text = assessment._repr_html_().replace("\xa0", " ")
+    assert re.search(r"<b[^>]*border-left:.8em solid #[0-9a-f]{6}[^>]*>EW: (likely overturns|may overturn|moves|stays) \(\d+ %", text)
+    assert "full response" in text and "class_" not in text
+    assert "assess(body, record) gives" in SOLVED["rock"]()._repr_html_() and "assess(" not in SOLVED["slide"]()._repr_html_()
+
+
+@pytest.mark.parametrize("name", [sample.name for sample in list_samples() if sample.kind == "record"])
+def test_measures_of_every_bundled_record_have_repr_html(name):
+    """A column per component, vertical-only and horizontal-only values included."""
+    record = seisblock.read(name)
+    text = seisblock.measure(record)._repr_html_()
+    assert all(f">{code}</td>" in text for code in record.codes)
+
+
+@pytest.mark.parametrize("name", [sample.name for sample in list_samples() if sample.kind in ("body", "scan", "cemetery")])
+def test_every_bundled_object_has_repr_html(name):
+    """Bodies in every form that their file allows, scans and cemeteries show themselves."""
+    values = 0
+    for load in (load_block, load_two_layer, load_contact, load_pile, load_springs, load_scan, read_cemetery):
+        with contextlib.suppress(seisblock.errors.SeisblockError):
+            values += "<table" in load(name)._repr_html_()
+    assert values or name.endswith(".ply")

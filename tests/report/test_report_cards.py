@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from seisblock.report.html.report_text import card_text, rank, scatter_text, severity_class, share_caveat
-from seisblock.studies.assessment import ModelResponse
+from seisblock.report.html.report_text import card_text, rank, scatter_text, share_caveat
+from seisblock.studies.report.responses import ModelResponse
 from seisblock.studies.respond.best_estimate import BestEstimate
 from seisblock.studies.respond.probability import ParameterVariation, Probability
 from tests.report.long_record import response
@@ -16,48 +16,47 @@ ENDS = dict.fromkeys(("q05", "q25", "q50", "q75", "q95"), 0.0)
 
 def effect(name, fell_at, share):
     """One direction of the long record: when it falls, None where it stands, and in what share of 200 versions."""
-    found = response("respond")
+    solution = response("respond")
     fell = {"overturned": fell_at is not None, "overturning_time_s": fell_at, "overturned_towards": None if fell_at is None else "+x"}
-    outcome = replace(found.outcome, outcome="moves" if fell_at is None else "overturns", sensitive=False, **fell)
-    told = replace(found, outcome=outcome, motion=replace(found.motion, name=name))
-    known = Probability(200, share, share, (max(share - 0.1, 0.0), min(share + 0.1, 1.0)), 0.01, ENDS, ParameterVariation(), 1)
-    return ModelResponse("respond", told, None, None, BestEstimate(told, known, True))
+    outcome = replace(solution.outcome, outcome="moves" if fell_at is None else "overturns", sensitive=False, **fell)
+    shaking = replace(solution, outcome=outcome, motion=replace(solution.motion, name=name))
+    expected = Probability(200, share, share, (max(share - 0.1, 0.0), min(share + 0.1, 1.0)), 0.01, ENDS, ParameterVariation(), 1)
+    return ModelResponse(shaking, None, None, BestEstimate(shaking, expected, True))
 
 
 def test_worst_direction_has_highest_probability():
     """NS falls later than EW, and in half of the versions, not in an eighth: the card opens with NS, and tells of EW, too."""
     north, east = effect("NS", 49.66, 0.46), effect("EW", 47.52, 0.12)
-    for both in ([north, east], [east, north]):
-        head, text = card_text(both)
+    for pair in ([north, east], [east, north]):
+        head, *text = card_text(pair)
         assert head.startswith("NS: overturns to +NS at 49.66 s")
         assert (
             text[0].startswith("Overturning probability 46 % (")
             and text[1].startswith("EW: overturns to +EW at 47.52 s")
             and text[2].startswith("Overturning probability 12 % (")
         )
-        assert max(both, key=rank) is north
+        assert max(pair, key=rank) is north
 
 
 def test_directions_sort_by_probability_before_nominal_outcome():
-    """Where more versions fall is worse, whatever the object does as it was given; then how soon it falls. All that fall are told."""
+    """Directions sort by probability, then by the time of overturning; all that overturn are listed."""
     falls, stands, soon = effect("NS", 49.0, 0.1), effect("EW", None, 0.4), effect("UP", 40.0, 0.1)
     assert sorted([falls, soon, stands], key=rank, reverse=True) == [stands, soon, falls]
-    head, text = card_text([falls, stands])
+    head, *text = card_text([falls, stands])
     assert head.startswith("EW:") and text[0].startswith("Overturning probability 40 % (") and "NS: overturns" in " ".join(text)
-    assert "UP:" not in " ".join(card_text([falls, effect("UP", None, 0.0)])[1])
-    assert severity_class([stands]) == "mild" and severity_class([stands, falls]) == "bad"
+    assert "UP:" not in " ".join(card_text([falls, effect("UP", None, 0.0)]))
 
 
-@pytest.mark.parametrize(("share", "said"), [(0.0, "3 % of those predicted 0/20"), (0.5, ""), (1.0, "2 % of those predicted 20/20")])
-def test_shares_of_zero_and_one_carry_interval(share, said):
+@pytest.mark.parametrize(("share", "message"), [(0.0, "3 % of those predicted 0/20"), (0.5, ""), (1.0, "2 % of those predicted 20/20")])
+def test_shares_of_zero_and_one_carry_interval(share, message):
     """No share of 0 or 1 stands alone on a card; the section says of what all shares are shares."""
-    found = effect("NS", None if share == 0.0 else 40.0, share)
-    assert said in "".join(share_caveat(found)) and bool(said) == any("shaking-table runs" in text for text in card_text([found])[1])
-    assert scatter_text([found]).startswith("Parameter variation only (model error not included): ")
-    assert "3 % of those predicted 0/20 did overturn" in scatter_text([found])
+    result = effect("NS", None if share == 0.0 else 40.0, share)
+    assert message in "".join(share_caveat(result)) and bool(message) == any("shaking-table runs" in text for text in card_text([result]))
+    assert scatter_text([result]).startswith("Parameter variation only (model error not included): ")
+    assert "3 % of those predicted 0/20 did overturn" in scatter_text([result])
 
 
 def test_card_without_samples_has_no_shares():
     """Neither a caveat nor what was varied."""
-    found = replace(effect("NS", 40.0, 0.0), governing=SimpleNamespace(probability=None))
-    assert not list(share_caveat(found)) and scatter_text([found]) == ""
+    result = replace(effect("NS", 40.0, 0.0), governing=SimpleNamespace(probability=None))
+    assert not list(share_caveat(result)) and scatter_text([result]) == ""

@@ -17,8 +17,8 @@ def test_likelihood_curve_includes_requested_bias(bias):
     """The curve's highest point lies where the estimate does."""
     rules = Assumptions(bias=bias, frequency_error=0.0)
     survey = counted_survey(read_cemetery("aoyama.csv"), 35, 100)
-    found = estimate_shaking(survey, 2.0, rules)
-    figure = estimate_figure("Aoyama", survey, rules, [found])
+    estimate = estimate_shaking(survey, 2.0, rules)
+    figure = estimate_figure("Aoyama", survey, rules, [estimate])
     (curve,) = figure.axes[-1].lines
     top = curve.get_xdata()[np.argmax(curve.get_ydata())]
-    assert top == pytest.approx(found.pga_m_s2 / GAL, rel=0.05)
+    assert top == pytest.approx(estimate.pga_m_s2 / GAL, rel=0.05)

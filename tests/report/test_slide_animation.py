@@ -8,10 +8,10 @@ from PIL import Image
 
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.core.i18n import use_locale
+from seisblock.models.slide.animate import animate, position_on_base, slide_animation
 from seisblock.models.slide.solve import solve_slide
+from seisblock.output.animation.render import AnimationOptions
 from seisblock.records import Motion
-from seisblock.report.animation.render import AnimationOptions
-from seisblock.report.animation.slide import animate, position_on_base, slide_animation
 
 
 @pytest.fixture(scope="module")

@@ -9,10 +9,10 @@ from seisblock.core.i18n import use_locale
 from seisblock.core.results import Response
 from seisblock.models.stack.options import StackOptions
 from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
-from seisblock.report.directions import direction_with_compass
+from seisblock.models.stack.stone_falls import describe_falls
+from seisblock.output.directions import direction_with_compass
+from seisblock.output.text.tables import console
 from seisblock.report.text.stack import tables
-from seisblock.report.text.stone_falls import describe_falls
-from seisblock.report.text.tables import console
 
 STILL = np.zeros((3, 200))
 RIGID = StackOptions(law="rigid")
@@ -26,10 +26,10 @@ def motion_towards(azimuth):
 def make_response(pile, *falls, azimuth=0.0):
     """Return the answer that stones of a bundled pile fell: each by name, time, s, and azimuth of the fall."""
     body, motion = load_pile(pile), motion_towards(azimuth)
-    told = {name: (at, (azimuth or 0.0) - to) for name, at, to in falls}
+    mapping = {name: (at, (azimuth or 0.0) - to) for name, at, to in falls}
     stones = []
     for name in body.names:
-        at, to = told.get(name, (None, None))
+        at, to = mapping.get(name, (None, None))
         side = None if to is None or azimuth is None else (azimuth - to) % 360.0
         state = "standing" if at is None else "fallen"
         stones.append(StoneOutcome(name, state, 1.0, 1.0, 0.01, 0.01, 0.0, 0.0, at, to, side, None if at is None else "ground"))
@@ -105,9 +105,9 @@ def test_fall_table_has_side_within_80_columns(pile, lang, monkeypatch):
     for azimuth, side in ((0.0, "260"), (None, "+y")):
         with use_locale(lang):
             screen = console()
-            with screen.capture() as shown:
+            with screen.capture() as output:
                 screen.print(*tables([make_response(pile, *falls, azimuth=azimuth)], [{"agreement": None}]))
-        rows = [row for row in shown.get().splitlines() if "100" in row and " 57.30" in row]
+        rows = [row for row in output.get().splitlines() if "100" in row and " 57.30" in row]
         assert len(rows) == len(names)
         assert rows[-1].split()[3] == side
-        assert max(cell_len(row.rstrip()) for row in shown.get().splitlines()) <= 80
+        assert max(cell_len(row.rstrip()) for row in output.get().splitlines()) <= 80

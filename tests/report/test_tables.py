@@ -1,4 +1,4 @@
-"""What a terminal of 80 columns shows of a wide answer: whole numbers, in as many tables as it takes."""
+"""Wide answers on a terminal of 80 columns: whole numbers, in as many tables as needed."""
 
 import io
 import itertools
@@ -7,12 +7,12 @@ from dataclasses import replace
 from rich.console import Console, Group
 
 from seisblock.core.i18n import use_locale
-from seisblock.report.templating import render_page
+from seisblock.models.jump.describe import describe as jump_verdict
+from seisblock.output.templating import render_page
+from seisblock.output.text.tables import side_by_side, styled_line, table
+from seisblock.output.text.wrap import display_width
 from seisblock.report.text.fragility import tables as fragility_tables
-from seisblock.report.text.jump import describe as jump_verdict
 from seisblock.report.text.rock import tables as rock_tables
-from seisblock.report.text.tables import side_by_side, styled_line, table
-from seisblock.report.text.wrap import display_width
 from tests.report.long_record import NAMES, fragilities, response
 
 
@@ -26,9 +26,9 @@ def terminal_lines(*parts, width=80):
 
 def test_wide_table_wraps_between_columns():
     """A column per direction goes on below; nothing is broken within a number, and the names of the rows are there each time."""
-    found = response("rock")
+    solution = response("rock")
     with use_locale("en"):
-        lines = terminal_lines(*rock_tables([found] * 12, [{}] * 12, gal=True))
+        lines = terminal_lines(*rock_tables([solution] * 12, [{}] * 12, gal=True))
     assert max(map(display_width, lines)) <= 80
     peaks = [text.split()[2:] for text in lines if text.startswith(" PGA (gal)")]
     assert len(peaks) > 1
@@ -37,8 +37,8 @@ def test_wide_table_wraps_between_columns():
 
 def test_table_that_fits_is_not_split():
     """Nothing is cut that has room, and a column that has none is shown all the same."""
-    made = side_by_side("", ["", *"abc"], [["row", 1.0, 2.0, 3.0]])
-    assert [sum("row" in text for text in terminal_lines(made, width=width)) for width in (80, 26, 18)] == [1, 2, 3]
+    created = side_by_side("", ["", *"abc"], [["row", 1.0, 2.0, 3.0]])
+    assert [sum("row" in text for text in terminal_lines(created, width=width)) for width in (80, 26, 18)] == [1, 2, 3]
 
 
 def test_numbers_are_not_split_from_units():
@@ -49,16 +49,16 @@ def test_numbers_are_not_split_from_units():
         "at rest it sinks by 3.88 mm.",
     ):
         for width in range(9, 40):
-            assert not [each for each in terminal_lines(styled_line(text), width=width) if each.lstrip().startswith(("%", "mm"))]
+            assert not [line for line in terminal_lines(styled_line(text), width=width) if line.lstrip().startswith(("%", "mm"))]
     assert "98\N{NO-BREAK SPACE}% (94\N{NO-BREAK SPACE}% to" in render_page("base.html", "98 % (94 % to 99 %)")
 
 
 def test_tiny_jump_is_not_written_as_zero():
-    """What is written as nothing has not moved at all."""
-    found = response("jump")
-    near = replace(found, outcome=replace(found.outcome, final_displacement_m=-4e-6))
+    """Only a jump of exactly zero is written as zero."""
+    solution = response("jump")
+    nearby = replace(solution, outcome=replace(solution.outcome, final_displacement_m=-4e-6))
     with use_locale("en"):
-        assert "less than 0.1 cm to -NS" in jump_verdict(near)
+        assert "less than 0.1 cm to -NS" in jump_verdict(nearby)
 
 
 def test_fragility_table_starts_with_first_and_last_body():
@@ -74,5 +74,5 @@ def test_fragility_table_starts_with_first_and_last_body():
 def test_wide_cells_are_right_aligned():
     """Words in Japanese and lengths with their units end where the numbers of their column end."""
     lines = terminal_lines(table("", ["", "NS"], [["結果", "ロッキング"], ["縁", "1.0 cm, 0.2 cm"], ["最大傾斜", "7.347"]]))
-    ends = {display_width(each.rstrip()) for each in lines if each.rstrip().endswith(("ロッキング", "0.2 cm", "7.347"))}
+    ends = {display_width(line.rstrip()) for line in lines if line.rstrip().endswith(("ロッキング", "0.2 cm", "7.347"))}
     assert len(ends) == 1

@@ -102,29 +102,29 @@ def interrupt_script(script, words, cwd):
         at = processor_time(process.pid)
         process.send_signal(signal.SIGINT)
         try:
-            out, said = process.communicate(timeout=600)
+            out, message = process.communicate(timeout=600)
         finally:
             process.kill()
-        return process.returncode, said.strip(), float(out.split()[-1]) - at
+        return process.returncode, message.strip(), float(out.split()[-1]) - at
 
 
-def best_of_four(script, words, cwd, told):
+def best_of_four(script, words, cwd, text):
     """Interrupt a script, and again where a busy machine may have slowed its end; return the shortest processor time, s."""
-    least = float("inf")
+    minimum = float("inf")
     for _ in range(4):
-        code, said, took = interrupt_script(script, words, cwd)
-        assert (code, said) == (130, told)
-        least = min(least, took)
-        if least < AT_ONCE:
+        code, message, took = interrupt_script(script, words, cwd)
+        assert (code, message) == (130, text)
+        minimum = min(minimum, took)
+        if minimum < AT_ONCE:
             break
-    return least
+    return minimum
 
 
-@pytest.mark.parametrize("named", all_but_slow(COMMANDS, {"a pile on 25 x 25 points"}))
-def test_sigint_ends_command_at_once(named, tmp_path):
+@pytest.mark.parametrize("names", all_but_slow(COMMANDS, {"a pile on 25 x 25 points"}))
+def test_sigint_ends_command_at_once(names, tmp_path):
     """In the middle of a run that would take minutes: exit 130, one line, no traceback, in half a second."""
     assert (
-        best_of_four(COMMAND, [*COMMANDS[named], "--quiet"], tmp_path, "seisblock: interrupted; no partially written file remains")
+        best_of_four(COMMAND, [*COMMANDS[names], "--quiet"], tmp_path, "seisblock: interrupted; no partially written file remains")
         < AT_ONCE
     )
 
@@ -171,11 +171,11 @@ def test_swallowed_interrupt_is_raised_again(number, code, tmp_path):
         time.sleep(0.3)  # a signal that comes just before a sleep begins waits for its end: of that, no program is master
         process.send_signal(number)
         try:
-            _, said = process.communicate(timeout=600)
+            _, message = process.communicate(timeout=600)
         finally:
             process.kill()
     assert process.returncode == code
-    assert ("no partially written file remains" in said) == (number == signal.SIGINT)
+    assert ("no partially written file remains" in message) == (number == signal.SIGINT)
 
 
 FIGURE = """
@@ -199,10 +199,10 @@ def test_interrupted_program_skips_teardown(tmp_path):
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         try:
-            _, said = process.communicate(timeout=600)
+            _, message = process.communicate(timeout=600)
         finally:
             process.kill()
-    assert process.returncode == 130 and said.strip().endswith("seisblock: interrupted; no partially written file remains")
+    assert process.returncode == 130 and message.strip().endswith("seisblock: interrupted; no partially written file remains")
 
 
 class Wrapping:
@@ -235,21 +235,21 @@ def test_wrapped_interrupt_leaves_block_as_keyboard_interrupt(become):
         raise ValueError("mine")
 
 
-@pytest.mark.parametrize(("number", "code", "said"), [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "")])
-def test_sigint_during_import_gives_no_traceback(number, code, said, monkeypatch):
+@pytest.mark.parametrize(("number", "code", "message"), [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "")])
+def test_sigint_during_import_gives_no_traceback(number, code, message, monkeypatch):
     """No traceback of a RuntimeError while matplotlib is being imported."""
     monkeypatch.setattr(signal, "raise_signal", lambda _, send=signal.raise_signal: send(number))
     monkeypatch.setattr(cite, "callback", lambda **_: make_a_class())
-    done = CliRunner().invoke(main, ["cite"])
-    assert done.exit_code == code
-    assert said in done.stderr and "Traceback" not in done.stderr
+    result = CliRunner().invoke(main, ["cite"])
+    assert result.exit_code == code
+    assert message in result.stderr and "Traceback" not in result.stderr
 
 
 def test_sigint_during_parsing_exits_130(monkeypatch):
     """Click's own end of it is "Aborted!" and exit 1."""
     monkeypatch.setattr(main, "parse_args", lambda *_: signal.raise_signal(signal.SIGINT))
-    done = CliRunner().invoke(main, ["cite"])
-    assert done.exit_code == 130 and "interrupted; no partially written file remains" in done.stderr and "Abort" not in done.stderr
+    result = CliRunner().invoke(main, ["cite"])
+    assert result.exit_code == 130 and "interrupted; no partially written file remains" in result.stderr and "Abort" not in result.stderr
 
 
 def test_sigint_before_command_exits_130_silently(tmp_path):
@@ -260,14 +260,14 @@ def test_sigint_before_command_exits_130_silently(tmp_path):
         "        if name == 'seisblock.cli':\n            signal.raise_signal(signal.SIGINT)\n"
         "sys.meta_path.insert(0, Finder())\nrun()\n"
     )
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+    result = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (result.returncode, result.stdout, result.stderr) == (130, "", "")
 
 
 def test_interrupt_in_callback_is_reported_once(monkeypatch):
     """Python tells what is raised where nobody can catch it; an interruption that comes again needs no such line, anything else does."""
-    heard = []
-    monkeypatch.setattr(sys, "unraisablehook", lambda lost: heard.append(lost.exc_type))
+    collected = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda missing: collected.append(missing.exc_type))
 
     class Swallowing:
         def __init__(self, error):
@@ -279,6 +279,6 @@ def test_interrupt_in_callback_is_reported_once(monkeypatch):
     with graceful_exit():
         Swallowing(KeyboardInterrupt())
         Swallowing(ValueError())
-    assert heard == [ValueError]
+    assert collected == [ValueError]
     Swallowing(KeyboardInterrupt())
-    assert heard == [ValueError, KeyboardInterrupt]
+    assert collected == [ValueError, KeyboardInterrupt]

@@ -1,4 +1,4 @@
-"""What would take hours or gigabytes is refused, with the number and what is allowed (FINDINGS R9, R14)."""
+"""Requests of hours or gigabytes are rejected, with the number and the limit (FINDINGS R9, R14)."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from seisblock.bodies.toml import read_body_toml
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.stack import MAX_GRID
 from seisblock.cli.types import Count
-from seisblock.core.errors import InputError, ParameterError
-from seisblock.core.io.checkpoint_lines import read_complete_lines
+from seisblock.core.errors import InputError, OutputError, ParameterError
+from seisblock.core.io.checkpoint import Checkpoint
 from seisblock.models.respond.options import RespondOptions
 from seisblock.readers.discover import iter_records
 from seisblock.readers.options import ReadOptions
@@ -38,7 +38,7 @@ SOON_S = 90.0
 REFUSED_S = 10.0
 """Processor time, s, within which a number is refused before anything is computed: what the command imports, on any machine."""
 
-ASKED = {
+REQUEST = {
     "factors of a margin": (
         ["rock", "--block", "gravestone", "--margin", "--margin-limit", "1e9"],
         3,
@@ -118,27 +118,27 @@ def test_count_options_are_all_covered():
     assert {"overturn-rate --most-fragile", "uplift --corner", "measure --dpi"} <= set(COUNTS)
 
 
-@pytest.mark.parametrize("what", COUNTS)
-def test_count_options_reject_huge_values(what):
+@pytest.mark.parametrize("quantity", COUNTS)
+def test_count_options_reject_huge_values(quantity):
     """Before anything is read or computed: exit 2, the option and the number in one sentence."""
-    name, option = COUNTS[what]
+    name, option = COUNTS[quantity]
     start = time.process_time()
-    done = CliRunner().invoke(main, [name, *COUNTED.get(name, []), option, "1000000000"])
+    result = CliRunner().invoke(main, [name, *COUNTED.get(name, []), option, "1000000000"])
     assert time.process_time() - start < REFUSED_S
-    told = " ".join(done.stderr.split())
-    assert (done.exit_code, done.stdout) == (2, ""), told
-    assert option in told and "1000000000" in told
+    output = " ".join(result.stderr.split())
+    assert (result.exit_code, result.stdout) == (2, ""), output
+    assert option in output and "1000000000" in output
 
 
 def test_environment_variable_raises_limit(monkeypatch):
-    """What the sentence names does it, on the command line and in the library."""
+    """The variable named in the message raises the limit, on the command line and in the library."""
     words = ["rock", "--block", "gravestone", "--perturb", "4"]
-    monkeypatch.setattr("seisblock.studies.rocking.perturb.MAX_RUNS", 3)
+    monkeypatch.setattr("seisblock.studies.sampling.MAX_RUNS", 3)
     (count,) = (option.type for option in main.get_command(None, "rock").params if option.opts[0] == "--perturb")
     monkeypatch.setattr(count, "limit", 3)
-    done = CliRunner().invoke(main, words)
-    assert done.exit_code == 2 and "4 samples exceed the limit of 3: reduce the number or raise SEISBLOCK_LIMIT_FACTOR" in " ".join(
-        done.stderr.split()
+    result = CliRunner().invoke(main, words)
+    assert result.exit_code == 2 and "4 samples exceed the limit of 3: reduce the number or raise SEISBLOCK_LIMIT_FACTOR" in " ".join(
+        result.stderr.split()
     )
     monkeypatch.setenv("SEISBLOCK_LIMIT_FACTOR", "2")
     assert CliRunner().invoke(main, words).exit_code == 0
@@ -173,8 +173,8 @@ def test_memory_error_states_remedy(monkeypatch):
         raise MemoryError
 
     monkeypatch.setattr("seisblock.readers.read_all", too_much)
-    done = CliRunner().invoke(main, ["measure"])
-    assert (done.exit_code, done.stdout) == (3, "") and "shorten the record with --window" in " ".join(done.stderr.split())
+    result = CliRunner().invoke(main, ["measure"])
+    assert (result.exit_code, result.stdout) == (3, "") and "shorten the record with --window" in " ".join(result.stderr.split())
 
 
 def test_coarsest_criterion_grid_has_one_height():
@@ -182,16 +182,16 @@ def test_coarsest_criterion_grid_has_one_height():
     assert len(RATIOS) == MAX_GRID >= len(PGAS)
 
 
-@pytest.mark.parametrize("what", ASKED)
-def test_excessive_requests_are_rejected_early(what, tmp_path, monkeypatch):
+@pytest.mark.parametrize("quantity", REQUEST)
+def test_excessive_requests_are_rejected_early(quantity, tmp_path, monkeypatch):
     """One sentence, long before the end of what was asked."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "huge.csv").write_text("height_over_width,count\n" + "2.5,100000\n" * 2000)
-    words, code, told = ASKED[what]
+    words, code, text = REQUEST[quantity]
     start = time.process_time()
-    done = CliRunner().invoke(main, words)
-    assert (done.exit_code, done.stdout) == (code, ""), done.stderr
-    assert told in " ".join(done.stderr.split())
+    result = CliRunner().invoke(main, words)
+    assert (result.exit_code, result.stdout) == (code, ""), result.stderr
+    assert text in " ".join(result.stderr.split())
     assert time.process_time() - start < SOON_S
 
 
@@ -205,26 +205,33 @@ READ = {
     "a hazard": ("z.csv", read_hazard),
     "a fragility": ("z.json", read_fragility),
     "surveyed places": ("z.csv", read_surveys),
-    "what a study keeps": ("z.jsonl", lambda path: read_complete_lines(path, "{")),
 }
 """Everything that is read besides records."""
 
 
-@pytest.mark.parametrize("what", READ)
-def test_device_behind_link_is_rejected(what, tmp_path):
+@pytest.mark.parametrize("quantity", READ)
+def test_device_behind_link_is_rejected(quantity, tmp_path):
     """R9: /dev/zero has no end; a name that leads to it is refused, whatever it stands for."""
-    name, use = READ[what]
+    name, use = READ[quantity]
     path = tmp_path / name
     path.symlink_to("/dev/zero")
     with pytest.raises(InputError, match=f"{name} is a device: give a regular file"):
         use(path)
 
 
-@pytest.mark.parametrize("what", READ)
-def test_reading_stops_at_limit(what, tmp_path, monkeypatch):
+def test_checkpoint_on_device_is_rejected(tmp_path):
+    """A checkpoint that leads to a device is refused before a line is read."""
+    path = tmp_path / "z.jsonl"
+    path.symlink_to("/dev/zero")
+    with pytest.raises(OutputError, match=r"^\S*z.jsonl is a device: give a regular file"):
+        Checkpoint.open(path, {})
+
+
+@pytest.mark.parametrize("quantity", READ)
+def test_reading_stops_at_limit(quantity, tmp_path, monkeypatch):
     """R9: what lifts the limit is named; a pipe, which does not say how much comes, is read as far as it."""
     monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "1")
-    name, use = READ[what]
+    name, use = READ[quantity]
     path = tmp_path / name
     path.write_bytes(b"0" * (2**20 + 1))
     refused = pytest.raises(InputError, match=f"{name}: 2 MiB in a file exceed the limit of 1: .* raise SEISBLOCK_MEMORY_MIB")
@@ -244,10 +251,10 @@ def test_curves_of_day_long_record_are_rejected_with_remedy(tmp_path, monkeypatc
     lines = ("time,NS (gal)\n", *(f"{0.01 * k:.2f},{50 * (k % 7 - 3)}\n" for k in range(20_000)))
     (tmp_path / "long.csv").write_text("".join(lines))
     words = ["slide", "long.csv", "--mu", "0.2", "--quiet"]
-    done = CliRunner().invoke(main, [*words, "--csv", "out.csv"])
-    assert done.exit_code == 3 and not (tmp_path / "out.csv").exists(), done.stderr
-    told = " ".join(done.stderr.split())
-    assert "need 3 MiB, more than the limit of 1 MiB" in told and "raise SEISBLOCK_MEMORY_MIB" in told
+    result = CliRunner().invoke(main, [*words, "--csv", "out.csv"])
+    assert result.exit_code == 3 and not (tmp_path / "out.csv").exists(), result.stderr
+    output = " ".join(result.stderr.split())
+    assert "need 3 MiB, more than the limit of 1 MiB" in output and "raise SEISBLOCK_MEMORY_MIB" in output
     assert CliRunner().invoke(main, words).exit_code == 0
     monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "100")
     assert CliRunner().invoke(main, [*words, "--csv", "out.csv"]).exit_code == 0

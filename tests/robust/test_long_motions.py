@@ -63,31 +63,31 @@ def in_stretches(monkeypatch):
 @pytest.mark.parametrize("solve", SOLVES.values(), ids=SOLVES)
 def test_chunked_motion_gives_same_response(solve, in_stretches):
     """Outcome, phases, events, time and channels, of a motion whose rows are the record's own."""
-    whole = solve(motion_of(RECORD, "NS"))
-    assert whole.channels
+    full = solve(motion_of(RECORD, "NS"))
+    assert full.channels
     in_stretches()
     motion = motion_of(RECORD, "NS")
     assert motion.is_long and np.shares_memory(motion.horizontal, RECORD.component("NS").acceleration)
     parts = solve(motion)
-    for field in fields(whole.outcome):
-        assert getattr(parts.outcome, field.name) == getattr(whole.outcome, field.name), field.name
-    assert (parts.phases, parts.status, parts.warnings) == (whole.phases, whole.status, whole.warnings)
-    assert [(event.name, event.time_s) for event in parts.events] == [(event.name, event.time_s) for event in whole.events]
-    np.testing.assert_array_equal(parts.time, whole.time)
-    for one, other in zip(whole.channels, parts.channels, strict=True):
-        np.testing.assert_array_equal(other.values, one.values, err_msg=one.name)
+    for field in fields(full.outcome):
+        assert getattr(parts.outcome, field.name) == getattr(full.outcome, field.name), field.name
+    assert (parts.phases, parts.status, parts.warnings) == (full.phases, full.status, full.warnings)
+    assert [(event.name, event.time_s) for event in parts.events] == [(event.name, event.time_s) for event in full.events]
+    np.testing.assert_array_equal(parts.time, full.time)
+    for first, second in zip(full.channels, parts.channels, strict=True):
+        np.testing.assert_array_equal(second.values, first.values, err_msg=first.name)
 
 
 def test_chunked_rows_equal_whole_rows(in_stretches):
     """Along, across and up of a turned direction, at once and stretch by stretch; a row that does not act is not looked at."""
-    whole = motion_of(RECORD, "37")
+    full = motion_of(RECORD, "37")
     in_stretches()
     parts = motion_of(RECORD, "37")
-    np.testing.assert_array_equal(parts.acceleration, whole.acceleration)
+    np.testing.assert_array_equal(parts.acceleration, full.acceleration)
     stretches = list(parts.segments((True, False, True)))
-    joined = np.concatenate([stretches[0].acceleration, *(each.acceleration[:, 1:] for each in stretches[1:])], axis=1)
-    np.testing.assert_array_equal(joined, whole.acceleration * [[1.0], [0.0], [1.0]])
-    assert stretches[-1].samples_after == 0 and [each.first for each in stretches[1:]] == [700 * k for k in range(1, len(stretches))]
+    joined = np.concatenate([stretches[0].acceleration, *(stretch.acceleration[:, 1:] for stretch in stretches[1:])], axis=1)
+    np.testing.assert_array_equal(joined, full.acceleration * [[1.0], [0.0], [1.0]])
+    assert stretches[-1].samples_after == 0 and [stretch.first for stretch in stretches[1:]] == [700 * k for k in range(1, len(stretches))]
 
 
 def test_ensemble_over_chunked_motion_equals_whole(in_stretches):
@@ -95,26 +95,26 @@ def test_ensemble_over_chunked_motion_equals_whole(in_stretches):
     motion = motion_of(RECORD, "EW")
     p = np.array([rocking.parameters(rock_params(Block(width, 0.9), motion), motion.dt) for width in (0.1, 0.2, 0.3)])
     gains = np.array([[1.0, 0.0, 0.0], [0.9, -0.3, 1.0], [1.2, 0.0, 0.5]])
-    whole = integrate_many(rocking.ROCKING, motion, p, np.zeros(2), rocking.REST, gains=gains)
+    full = integrate_many(rocking.ROCKING, motion, p, np.zeros(2), rocking.REST, gains=gains)
     in_stretches()
     parts = integrate_many(rocking.ROCKING, motion_of(RECORD, "EW"), p, np.zeros(2), rocking.REST, gains=gains)
     for field in ("final", "final_mode", "end_time", "extrema", "dwell_times"):
-        np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
+        np.testing.assert_array_equal(getattr(parts, field), getattr(full, field))
 
 
 def test_curves_are_computed_on_demand(monkeypatch):
     """A verdict follows its path once more for nobody."""
-    made = SimpleNamespace(count=0)
+    created = SimpleNamespace(count=0)
     original = seisblock.models.slide.solve._curves
 
     def counted(*args):
-        made.count += 1
+        created.count += 1
         return original(*args)
 
     monkeypatch.setattr("seisblock.models.slide.solve._curves", counted)
     response = seisblock.solve_slide(0.1, Motion.from_arrays(np.sin(np.arange(300.0)), 0.01))
-    assert response.outcome.slips and made.count == 0
-    assert response.time.size == response["displacement"].size and made.count == 1
+    assert response.outcome.slips and created.count == 0
+    assert response.time.size == response["displacement"].size and created.count == 1
 
 
 NOISE = Motion.from_arrays(np.random.default_rng(1).normal(size=3000), 0.01)
@@ -122,14 +122,14 @@ NOISE = Motion.from_arrays(np.random.default_rng(1).normal(size=3000), 0.01)
 
 def test_event_buffer_overflow_changes_nothing(monkeypatch):
     """They are taken out in time: the answer is that of tables that hold all of them."""
-    whole = seisblock.solve_slide(0.05, NOISE)
-    assert len(whole.events) > 1000
+    full = seisblock.solve_slide(0.05, NOISE)
+    assert len(full.events) > 1000
     monkeypatch.setattr("seisblock.dynamics.integration._INITIAL_EVENT_CAPACITY", 16)
     monkeypatch.setattr("seisblock.dynamics.integration._MAX_EVENT_CAPACITY", 16)
     parts = seisblock.solve_slide(0.05, NOISE)
-    assert (parts.outcome, parts.phases) == (whole.outcome, whole.phases)
-    for one, other in zip(whole.events, parts.events, strict=True):
-        assert (one.name, one.time_s, *one.before, *one.after) == (other.name, other.time_s, *other.before, *other.after)
+    assert (parts.outcome, parts.phases) == (full.outcome, full.phases)
+    for first, second in zip(full.events, parts.events, strict=True):
+        assert (first.name, first.time_s, *first.before, *first.after) == (second.name, second.time_s, *second.before, *second.after)
 
 
 def test_unbounded_events_are_rejected_with_remedy(monkeypatch):
@@ -168,7 +168,7 @@ def test_memory_of_short_trajectories_in_long_motion():
     assert path.states.base is None and path.modes.base is None
 
 
-SHORTER, LONGER, LEAST = 2**17, 2**18, 8.0
+SHORTER, LONGER, MINIMUM = 2**17, 2**18, 8.0
 """Samples of a burst in a quiet day, and the bytes of each that a single row would take."""
 
 
@@ -191,23 +191,23 @@ def peak_bytes(solve, samples):
     return bytes_held(solve, motion)
 
 
-def bytes_held(use, *given):
+def bytes_held(use, *arguments):
     """Return what is held at the peak while something is made use of, bytes."""
     tracemalloc.start()
     try:
-        assert use(*given) is not None
+        assert use(*arguments) is not None
         return tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
 
 
-@pytest.mark.parametrize("named", all_but_slow(SOLVES, set(SOLVES) - {"stack", "uplift"}))
-def test_memory_per_sample_of_outcome(named, monkeypatch):
+@pytest.mark.parametrize("names", all_but_slow(SOLVES, set(SOLVES) - {"stack", "uplift"}))
+def test_memory_per_sample_of_outcome(names, monkeypatch):
     """The slope between two lengths: less than one row; the path of a slide takes five."""
     monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 2**16)
     monkeypatch.setattr("seisblock.records.motion.SEGMENT_SAMPLES", 2**15)
-    peak_bytes(SOLVES[named], 2**16 + 2)
-    assert (peak_bytes(SOLVES[named], LONGER) - peak_bytes(SOLVES[named], SHORTER)) / (LONGER - SHORTER) < LEAST
+    peak_bytes(SOLVES[names], 2**16 + 2)
+    assert (peak_bytes(SOLVES[names], LONGER) - peak_bytes(SOLVES[names], SHORTER)) / (LONGER - SHORTER) < MINIMUM
 
 
 def check_models_with_pile(record, motion):
@@ -226,8 +226,8 @@ ONE_ROW = 10.0
 """Bytes of each sample, that of one row and a share: a high-pass looks at all of it."""
 
 
-@pytest.mark.parametrize("named", STUDIES)
-def test_memory_per_sample_of_model_comparison(named, monkeypatch):
+@pytest.mark.parametrize("names", STUDIES)
+def test_memory_per_sample_of_model_comparison(names, monkeypatch):
     """The slope between two lengths of a turned motion: the row across, the filtered row and its velocity were held at once."""
     for size, samples in {
         "records.motion.LONG_MOTION_SAMPLES": 2**16,
@@ -240,6 +240,6 @@ def test_memory_per_sample_of_model_comparison(named, monkeypatch):
         monkeypatch.setattr(f"seisblock.{size}", samples)
     fallen = SimpleNamespace(overturned=True)  # dozens of factors are tried, and what a verdict holds is looked at above
     monkeypatch.setattr("seisblock.studies.model_comparison.rock_verdict", lambda *args, **options: fallen)
-    study = STUDIES[named]
+    study = STUDIES[names]
     study(*rotated_record(2**16 + 2))  # compiles
     assert (bytes_held(study, *rotated_record(LONGER)) - bytes_held(study, *rotated_record(SHORTER))) / (LONGER - SHORTER) < ONE_ROW

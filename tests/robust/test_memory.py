@@ -32,9 +32,9 @@ takes besides; in a day 0.55 GB, 0.73 GB, and 0.55 GB above the record's 0.41 GB
 def lower_long_limits(monkeypatch):
     """Let both lengths count as long."""
     for size in (
-        "measures.fft_filter.LONG_TRANSFORM",
+        "records.fft_filter.LONG_TRANSFORM",
         "measures.spectra.LONG_TRANSFORM",
-        "records.qc_spikes._BLOCK",
+        "records.qc_spikes.BLOCK",
         "readers.source.LARGE_FILE_BYTES",
     ):
         monkeypatch.setattr(f"seisblock.{size}", 2**18)
@@ -42,10 +42,10 @@ def lower_long_limits(monkeypatch):
 
 def shaking(samples):
     """Return three components, m/s^2: a burst among noise of some counts of 1 mm/s^2."""
-    dice = np.random.default_rng(samples)
+    rng = np.random.default_rng(samples)
     place = np.arange(samples)
     burst = 3000.0 * np.exp(-(((place - samples / 2) / 4000.0) ** 2)) * np.sin(0.0628 * place)
-    return [np.rint(burst + dice.integers(-3, 4, samples)) / 1000.0 for _ in range(3)]
+    return [np.rint(burst + rng.integers(-3, 4, samples)) / 1000.0 for _ in range(3)]
 
 
 def per_sample(make, use, shorter=SHORTER, longer=LONGER):
@@ -53,10 +53,10 @@ def per_sample(make, use, shorter=SHORTER, longer=LONGER):
     use(make(2000))  # imports
     peaks = []
     for samples in (shorter, longer):
-        given = make(samples)
+        arguments = make(samples)
         tracemalloc.start()
         try:
-            assert use(given) is not None
+            assert use(arguments) is not None
             peaks.append(tracemalloc.get_traced_memory()[1])
         finally:
             tracemalloc.stop()
@@ -98,30 +98,30 @@ def test_trim_heap_returns_free_memory():
         ctypes.memset(block, 1, 2000)
     for block in blocks[:-1]:
         libc.free(block)
-    held = resident_bytes()
+    holding = resident_bytes()
     trim_heap()
-    given = held - resident_bytes()
+    arguments = holding - resident_bytes()
     libc.free(blocks[-1])
-    assert given > 30e6
+    assert arguments > 30e6
 
 
 def test_reading_long_record_returns_memory(tmp_path, monkeypatch):
     """It was 0.2 GB of a day, beside the record and what is made of it; a short file is not worth the while."""
-    told = []
-    monkeypatch.setattr(sys.modules["seisblock.readers.read"], "trim_heap", lambda: told.append(samples))
+    collected = []
+    monkeypatch.setattr(sys.modules["seisblock.readers.read"], "trim_heap", lambda: collected.append(samples))
     monkeypatch.setattr(sys.modules["seisblock.readers.read"], "_TRIM_SAMPLES", 1000)
     for samples in (1000, 1001):
         path = tmp_path / f"{samples}.mseed"
         obspy.Trace(np.arange(samples, dtype=np.int32), {"station": "DAY", "channel": "HNN", "delta": 0.005}).write(str(path), "MSEED")
         read(path, units="gal")
-    assert told == [1001]
+    assert collected == [1001]
 
 
 def test_memory_per_sample_of_a_table(tmp_path, monkeypatch):
     """A plain table with its times: four columns, and nothing of the text, which stays in the file."""
     for name, value in {"source.LARGE_FILE_BYTES": 2**14, "lines.CHUNK_LINES": 2**8, "table.parse.CHUNK_SIZE": 2**12}.items():
         monkeypatch.setattr(f"seisblock.readers.{name}", value)
-    monkeypatch.setattr("seisblock.records.qc_spikes._BLOCK", 2**12)
+    monkeypatch.setattr("seisblock.records.qc_spikes.BLOCK", 2**12)
 
     def written(samples):
         path = tmp_path / f"{samples}.csv"
@@ -145,8 +145,8 @@ def test_intensity_is_independent_of_transform_order(samples, monkeypatch):
     """As a table of as many lines as columns, of a few columns, of one (no divisor) and at once: to the round-off."""
     record = make_record(samples)
     in_pieces = jma_intensity(record)
-    monkeypatch.setattr("seisblock.measures.fft_filter.LONG_TRANSFORM", 2**21)
-    monkeypatch.setattr("seisblock.measures.fft_filter.CHUNK_SIZE", 2**21)
+    monkeypatch.setattr("seisblock.records.fft_filter.LONG_TRANSFORM", 2**21)
+    monkeypatch.setattr("seisblock.records.fft_filter.CHUNK_SIZE", 2**21)
     assert in_pieces == pytest.approx(jma_intensity(record), rel=1e-13)
 
 
@@ -159,13 +159,13 @@ def test_highpass_with_excessive_padding_is_rejected():
 def test_intensity_of_prime_length_beyond_limit_is_none(monkeypatch):
     """A prime number of samples has one long transform: beyond the limit no intensity, and a reason with a remedy that works."""
     samples = 2**18 + 3  # a prime
-    found = make_record(samples)
-    whole = jma_intensity(found)
+    result = make_record(samples)
+    full = jma_intensity(result)
     monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "45")
-    assert whole is not None and jma_intensity(found) is None
+    assert full is not None and jma_intensity(result) is None
     reason = "filtering 262147 samples needs 46 MiB, more than the limit of 45 MiB: shorten the record by one or two samples"
-    assert any(reason in warning for warning in measure(found).warnings)
-    shorter = Record(tuple(Component(c.code, c.acceleration[:-3]) for c in found.components), found.dt)
-    assert jma_intensity(shorter) == pytest.approx(whole, abs=1e-3)
+    assert any(reason in warning for warning in measure(result).warnings)
+    shorter = Record(tuple(Component(c.code, c.acceleration[:-3]) for c in result.components), result.dt)
+    assert jma_intensity(shorter) == pytest.approx(full, abs=1e-3)
     monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "46")
-    assert jma_intensity(found) == whole
+    assert jma_intensity(result) == full

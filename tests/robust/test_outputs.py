@@ -17,8 +17,7 @@ from click.testing import CliRunner
 from seisblock.cli import main
 from seisblock.core.errors import OutputError
 from seisblock.core.io.checkpoint import Checkpoint
-from seisblock.core.io.checkpoint_lines import append_line, read_complete_lines
-from seisblock.report.io.atomic import atomic_write, read_table, write_table, write_text
+from seisblock.output.io.atomic import atomic_write, read_table, write_table, write_text
 from seisblock.samples import sample_path
 
 PROGRAM = [sys.executable, "-m", "seisblock"]
@@ -53,8 +52,8 @@ def test_output_never_overwrites_record(words, folder):
     before = (folder / "in.csv").read_bytes()
     (folder / "link.csv").symlink_to("in.csv")
     os.link(folder / "in.csv", folder / "hard.csv")
-    done = run(*words)
-    assert done.exit_code == 3 and "would overwrite the input file" in done.stderr
+    result = run(*words)
+    assert result.exit_code == 3 and "would overwrite the input file" in result.stderr
     assert (folder / "in.csv").read_bytes() == before
 
 
@@ -72,11 +71,11 @@ def test_output_never_overwrites_body_or_cemetery(folder):
     """R1: files of bodies and cemeteries are read, too."""
     for name in ("gravestone.toml", "aoyama.csv"):
         (folder / name).write_bytes(sample_path(name).read_bytes())
-    held = {name: (folder / name).read_bytes() for name in ("gravestone.toml", "aoyama.csv")}
+    holding = {name: (folder / name).read_bytes() for name in ("gravestone.toml", "aoyama.csv")}
     assert run("rock", "in.csv", "--block", "gravestone.toml", "--csv", "gravestone.toml").exit_code == 3
     assert run("overturn-rate", "--cemetery", "aoyama.csv", "--csv", "aoyama.csv").exit_code == 3
     assert run("report", "in.csv", "-o", "in.csv").exit_code == 3
-    assert {name: (folder / name).read_bytes() for name in held} == held
+    assert {name: (folder / name).read_bytes() for name in holding} == holding
 
 
 @pytest.mark.parametrize("command", ["batch", "fragility"])
@@ -85,9 +84,9 @@ def test_output_never_overwrites_list_of_records(command, folder):
     (folder / "again.csv").write_bytes((folder / "in.csv").read_bytes())
     (folder / "list.txt").write_text("in.csv\nagain.csv\n")
     os.link(folder / "list.txt", folder / "out.csv")
-    told = {"batch": ("--force", "--out"), "fragility": ("--csv",)}[command]
-    done = run(command, "@list.txt", "--bodies", "gravestone", "--solver", "rock", *told, "out.csv")
-    assert done.exit_code == 3 and "would overwrite the input file" in done.stderr
+    curves = {"batch": ("--force", "--out"), "fragility": ("--csv",)}[command]
+    result = run(command, "@list.txt", "--bodies", "gravestone", "--solver", "rock", *curves, "out.csv")
+    assert result.exit_code == 3 and "would overwrite the input file" in result.stderr
     assert (folder / "list.txt").read_text() == "in.csv\nagain.csv\n"
 
 
@@ -96,26 +95,26 @@ def test_checkpoint_never_overwrites_record(link, folder):
     """R1: what a batch keeps beside its table goes where an output may go."""
     link("in.csv", "out.csv.journal")
     before = (folder / "in.csv").read_bytes()
-    done = run("batch", "in.csv", "--bodies", "gravestone", "--solver", "rock", "--force", "--out", "out.csv")
-    assert done.exit_code == 3 and "would overwrite the input file" in done.stderr
+    result = run("batch", "in.csv", "--bodies", "gravestone", "--solver", "rock", "--force", "--out", "out.csv")
+    assert result.exit_code == 3 and "would overwrite the input file" in result.stderr
     assert (folder / "in.csv").read_bytes() == before
 
 
 def test_outputs_of_one_name_are_rejected(folder):
     """R1: --csv and --plot of one name are refused before either is written."""
-    done = run("slide", "in.csv", "--mu", "0.2", "--csv", "a.png", "--plot", "./a.png")
-    assert done.exit_code == 3 and "the same file" in done.stderr
+    result = run("slide", "in.csv", "--mu", "0.2", "--csv", "a.png", "--plot", "./a.png")
+    assert result.exit_code == 3 and "the same file" in result.stderr
     assert not (folder / "a.png").exists()
 
 
 def test_read_only_output_is_rejected(folder):
     """R3: whoever made it read-only meant it, also for root."""
-    kept = folder / "kept.csv"
-    kept.write_text("mine")
-    kept.chmod(0o444)
-    done = run("slide", "in.csv", "--mu", "0.2", "--csv", "kept.csv")
-    assert done.exit_code == 3 and "read-only" in done.stderr
-    assert kept.read_text() == "mine"
+    remaining = folder / "kept.csv"
+    remaining.write_text("mine")
+    remaining.chmod(0o444)
+    result = run("slide", "in.csv", "--mu", "0.2", "--csv", "kept.csv")
+    assert result.exit_code == 3 and "read-only" in result.stderr
+    assert remaining.read_text() == "mine"
 
 
 def test_output_through_link_keeps_link(folder):
@@ -177,8 +176,8 @@ def test_csv_escapes_spreadsheet_formulas(tmp_path):
 
 def test_overlong_name_gives_one_error(folder):
     """R16: a name of over 255 bytes is refused by the disk, in one line."""
-    done = run("slide", "in.csv", "--mu", "0.2", "--csv", "x" * 300 + ".csv")
-    assert done.exit_code == 3 and "too long" in done.stderr and "Traceback" not in done.output
+    result = run("slide", "in.csv", "--mu", "0.2", "--csv", "x" * 300 + ".csv")
+    assert result.exit_code == 3 and "too long" in result.stderr and "Traceback" not in result.output
 
 
 @pytest.mark.parametrize(
@@ -189,8 +188,8 @@ def test_overlong_name_gives_one_error(folder):
 def test_circular_link_gives_one_error(words, folder):
     """The disk finds no file behind it, however often it looks: a traceback with Python before 3.13."""
     (folder / "loop.png").symlink_to("loop.png")
-    done = run(*words, "loop.png")
-    assert done.exit_code == 3 and "loop.png" in done.stderr and not isinstance(done.exception, RuntimeError)
+    result = run(*words, "loop.png")
+    assert result.exit_code == 3 and "loop.png" in result.stderr and not isinstance(result.exception, RuntimeError)
 
 
 def box(kind, size):
@@ -198,15 +197,15 @@ def box(kind, size):
     return (size + 8).to_bytes(4, "big") + kind + bytes(size)
 
 
-WHOLE = box(b"ftyp", 12) + box(b"mdat", 50) + box(b"moov", 30)
+FULL = box(b"ftyp", 12) + box(b"mdat", 50) + box(b"moov", 30)
 
 
-@pytest.mark.parametrize(("content", "good"), [(b"", False), (WHOLE[:-10], False), (WHOLE[:78], False), (WHOLE, True)])
+@pytest.mark.parametrize(("content", "good"), [(b"", False), (FULL[:-10], False), (FULL[:78], False), (FULL, True)])
 def test_incomplete_animation_keeps_existing_file(content, good, tmp_path, monkeypatch):
     """R2: an encoder that runs out of disk and says nothing leaves the old film alone."""
     from PIL import Image
 
-    from seisblock.report.animation import render
+    from seisblock.output.animation import render
 
     encoder = tmp_path / "ffmpeg"
     encoder.write_text(
@@ -226,7 +225,7 @@ def test_animation_on_full_disk_states_reason(tmp_path, monkeypatch):
     """R2: of all that ffmpeg tells, its last line is about something else."""
     from PIL import Image
 
-    from seisblock.report.animation import render
+    from seisblock.output.animation import render
 
     encoder = tmp_path / "ffmpeg"
     encoder.write_text(
@@ -258,7 +257,7 @@ def test_figure_on_full_disk_gives_one_error(suffix, tmp_path):
     """In the middle of whatever matplotlib does: the .pdf ended in a traceback of its compression."""
     from matplotlib.figure import Figure
 
-    from seisblock.report.figures.style import save
+    from seisblock.output.figures.style import save
 
     target = tmp_path / f"out{suffix}"
     target.write_bytes(b"old")
@@ -279,15 +278,17 @@ def test_failed_batch_start_leaves_no_checkpoint(tmp_path):
 
 def test_checkpoint_on_full_disk_has_whole_lines(tmp_path):
     """A full disk in the middle of a line leaves those before, and the next line stands by itself."""
-    path = tmp_path / "kept.jsonl"
-    append_line(path, "{1}")
-    with no_file_over(10), pytest.raises(OutputError, match="is unchanged"):
-        append_line(path, "{" + 20 * "2" + "}")
-    assert path.read_bytes() == b"{1}\n"
-    path.write_bytes(b"{1}\n{22")
-    assert read_complete_lines(path, "{") == ["{1}"]
-    append_line(path, "{3}")
-    assert read_complete_lines(path, "{") == ["{1}", "{3}"]
+    path, purpose = tmp_path / "kept.jsonl", {"seisblock": "batch"}
+    checkpoint = Checkpoint.open(path, purpose)
+    checkpoint.append(("a", "1"), [{"x": 1}])
+    before = path.read_bytes()
+    with no_file_over(len(before) + 10), pytest.raises(OutputError, match="cannot write"):
+        checkpoint.append(("b", "2"), [{"x": 2}])
+    assert path.read_bytes() == before
+    path.write_bytes(before + b"0123")
+    resumed = Checkpoint.open(path, purpose)
+    resumed.append(("c", "3"), [{"x": 3}])
+    assert list(Checkpoint.open(path, purpose).places) == [("a", "1"), ("c", "3")]
 
 
 def test_sigterm_cleans_up(folder):
@@ -314,29 +315,29 @@ SHELL = {"full": ">/dev/full", "closed": ">&-"}
 def test_full_or_closed_stdout_gives_at_most_one_error(command, end, tmp_path):
     """R10: a full or a closed stdout is one sentence at most, never a traceback."""
     line = f"{sys.executable} -m seisblock {command} {SHELL[end]}"
-    done = subprocess.run(["bash", "-c", line], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert "Traceback" not in done.stderr and "Exception ignored" not in done.stderr
+    result = subprocess.run(["bash", "-c", line], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "Traceback" not in result.stderr and "Exception ignored" not in result.stderr
     if end == "full":
-        assert done.returncode == 3 and "No space left" in done.stderr
+        assert result.returncode == 3 and "No space left" in result.stderr
     else:
-        assert done.returncode == 0
+        assert result.returncode == 0
 
 
 @pytest.mark.slow
 def test_latin_1_stdout_replaces_characters(tmp_path):
     """R16: a terminal that cannot write Greek shows a sign in its place."""
     environment = {**os.environ, "PYTHONIOENCODING": "latin-1"}
-    done = subprocess.run([*PROGRAM, "measure"], cwd=tmp_path, env=environment, capture_output=True, check=False)
-    assert done.returncode == 0 and b"Traceback" not in done.stderr
+    result = subprocess.run([*PROGRAM, "measure"], cwd=tmp_path, env=environment, capture_output=True, check=False)
+    assert result.returncode == 0 and b"Traceback" not in result.stderr
 
 
 def test_ascii_stdout_replaces_characters(tmp_path):
     """The C locale of a Python that was told not to mend it (a batch job) cannot write a station's Japanese name: a sign in its place."""
     narrow = {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "C"}
     environment = {**{name: value for name, value in os.environ.items() if name != "PYTHONIOENCODING"}, **narrow}
-    done = subprocess.run([*PROGRAM, "measure", "synthetic_jma"], cwd=tmp_path, env=environment, capture_output=True, check=False)
-    assert done.returncode == 0 and b"Traceback" not in done.stderr
-    assert b"SYN ???? SYNTHETIC" in done.stdout and done.stdout.isascii()
+    result = subprocess.run([*PROGRAM, "measure", "synthetic_jma"], cwd=tmp_path, env=environment, capture_output=True, check=False)
+    assert result.returncode == 0 and b"Traceback" not in result.stderr
+    assert b"SYN ???? SYNTHETIC" in result.stdout and result.stdout.isascii()
 
 
 def test_non_utf_8_file_name_is_read(tmp_path):
@@ -344,8 +345,8 @@ def test_non_utf_8_file_name_is_read(tmp_path):
     name = os.path.join(os.fsencode(tmp_path), b"\xb6\xe8.csv")  # noqa: PTH118
     with contextlib.suppress(OSError), open(name, "wb") as file:  # noqa: PTH123
         file.write(sample_path("elcentro_1940_ns").read_bytes())
-    done = subprocess.run([*map(os.fsencode, PROGRAM), b"measure", name], capture_output=True, check=False)
-    assert done.returncode == 0 and b"Traceback" not in done.stderr
+    result = subprocess.run([*map(os.fsencode, PROGRAM), b"measure", name], capture_output=True, check=False)
+    assert result.returncode == 0 and b"Traceback" not in result.stderr
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
@@ -353,35 +354,35 @@ def test_batch_over_non_utf_8_names(suffix, folder):
     """R16: the bytes are spelt out in the table, and kept in its journal as they are."""
     if suffix == ".parquet":
         pytest.importorskip("pyarrow")
-    done = run("batch", "in.csv", "\udcff.csv", "--bodies", "gravestone", "--solver", "rock", "--out", f"out{suffix}")
-    assert done.exit_code == 0 and "UnicodeEncodeError" not in done.output, done.output
+    result = run("batch", "in.csv", "\udcff.csv", "--bodies", "gravestone", "--solver", "rock", "--out", f"out{suffix}")
+    assert result.exit_code == 0 and "UnicodeEncodeError" not in result.output, result.output
     table = (folder / f"out{suffix}").read_bytes()
     assert b"\\udcff.csv" in table
     Checkpoint.begin(folder / "a.journal", {"seisblock": "batch"}).append(("\udcff.csv", "gone"), [{"record": "\udcff"}])
-    again = Checkpoint.resume(folder / "a.journal", {"seisblock": "batch"})
-    assert again.rows(("\udcff.csv", "gone")) == [{"record": "\udcff"}]
+    repeat = Checkpoint.resume(folder / "a.journal", {"seisblock": "batch"})
+    assert repeat.rows(("\udcff.csv", "gone")) == [{"record": "\udcff"}]
 
 
 @pytest.mark.parametrize("words", ["--csv out.csv --json > out.csv", "--plot out.png >> out.png", "--json >> in.csv"])
 def test_stdout_file_is_neither_output_nor_input(words, folder):
-    """What stdout holds would be lost behind the new file; the record would grow by an answer."""
+    """The file of stdout is rejected as an output and as an input."""
     before = (folder / "in.csv").read_bytes()
-    done = subprocess.run(
+    result = subprocess.run(
         ["bash", "-c", f"{sys.executable} -m seisblock slide in.csv --mu 0.2 --quiet {words}"],
         cwd=folder,
         capture_output=True,
         text=True,
         check=False,
     )
-    assert done.returncode == 3 and "stdout" in done.stderr
+    assert result.returncode == 3 and "stdout" in result.stderr
     assert (folder / "in.csv").read_bytes() == before
 
 
 def test_process_substitution_is_written_through(folder):
     """A shell's process substitution is a name such as /dev/fd/63; so is /dev/stdout where it is a pipe."""
     line = f"{sys.executable} -m seisblock slide in.csv --mu 0.2 --quiet --json --csv >(cat > got.csv) > got.json; wait $!"
-    done = subprocess.run(["bash", "-c", line], cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0 and (folder / "got.json").read_text().startswith("{")
+    result = subprocess.run(["bash", "-c", line], cwd=folder, capture_output=True, text=True, check=False)
+    assert result.returncode == 0 and (folder / "got.json").read_text().startswith("{")
     assert (folder / "got.csv").read_text().startswith("component,")
 
 
@@ -400,14 +401,14 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("what", REFUSED)
-def test_output_path_is_checked_before_solving(what, folder, monkeypatch):
+@pytest.mark.parametrize("quantity", REFUSED)
+def test_output_path_is_checked_before_solving(quantity, folder, monkeypatch):
     """The first thing that a command does; the record need not even be there."""
-    words, says = REFUSED[what]
+    words, says = REFUSED[quantity]
     monkeypatch.setattr("shutil.which", lambda name: None)
-    monkeypatch.setattr("seisblock.report.io.atomic.find_spec", lambda name: None)
-    done = run("stack", "not_there.csv", *words)
-    assert done.exit_code == 3 and says in " ".join(done.stderr.split())
+    monkeypatch.setattr("seisblock.output.io.atomic.find_spec", lambda name: None)
+    result = run("stack", "not_there.csv", *words)
+    assert result.exit_code == 3 and says in " ".join(result.stderr.split())
     assert sorted(path.name for path in folder.iterdir()) == ["in.csv"]
 
 
@@ -424,8 +425,8 @@ OTHER_NAMES = (
 @pytest.mark.parametrize(("line", "says"), OTHER_NAMES)
 def test_output_suffix_of_other_format_is_rejected(line, says, folder):
     """A name that says PDF, and holds HTML, opens in nothing; what has no suffix, or one of the user's own, is written as ever."""
-    done = run(*line.split())
-    assert done.exit_code == 3 and says in " ".join(done.stderr.split()), done.output
+    result = run(*line.split())
+    assert result.exit_code == 3 and says in " ".join(result.stderr.split()), result.output
     assert sorted(path.name for path in folder.iterdir()) == ["in.csv"]
 
 
@@ -439,15 +440,15 @@ def test_output_with_unknown_suffix_is_accepted(name, folder):
 @pytest.mark.parametrize("words", [("report", "-o"), ("validate", "--html")], ids=" ".join)
 def test_unwritable_page_is_rejected_first(words, folder):
     """Pages take long to make."""
-    done = run(words[0], *(["not_there.csv"] if words[0] == "report" else []), words[1], "nowhere/page.html")
-    assert done.exit_code == 3 and "the folder nowhere does not exist" in done.stderr
+    result = run(words[0], *(["not_there.csv"] if words[0] == "report" else []), words[1], "nowhere/page.html")
+    assert result.exit_code == 3 and "the folder nowhere does not exist" in result.stderr
 
 
 def test_stale_temporary_files_are_removed(tmp_path):
     """SIGKILL in the middle of a write leaves a hidden file: the next output there takes it away, but none that a living run holds."""
     fcntl = pytest.importorskip("fcntl")
     script = (
-        "import os, signal, sys\nfrom seisblock.report.io.atomic import atomic_write\n"
+        "import os, signal, sys\nfrom seisblock.output.io.atomic import atomic_write\n"
         "with atomic_write(sys.argv[1]) as path:\n    path.write_text('half')\n    os.kill(os.getpid(), signal.SIGKILL)\n"
     )
     killed = subprocess.run([sys.executable, "-c", script, str(tmp_path / "a.txt")], check=False)

@@ -22,8 +22,9 @@ from seisblock.models.respond.solve import solve_respond
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
-from seisblock.studies.respond.probability import ParameterVariation, _gains, perturbed_respond_params, respond_probability
-from seisblock.studies.rocking.perturb import Spread, draw_samples, perturb, perturbed_rock_params
+from seisblock.studies.respond.probability import respond_probability
+from seisblock.studies.rocking.perturb import perturb
+from seisblock.studies.sampling import ParameterVariation, draw_samples, sample_gains, sample_respond_params, sample_rock_params
 
 INSETS = (0.0, 0.02, 0.05, 0.1, 0.1001, 0.12)
 NOTHING_VARIES = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
@@ -47,8 +48,8 @@ def test_probability_is_continuous_in_a_given_inset():
     for x in (0.0, 0.05, 0.1, 0.12):
         assert abs(shares[x] - shares[round(x + 1e-4, 4)]) <= 6 / 200
     ordered = [shares[x] for x in INSETS]
-    assert all(more >= less - 6 / 200 for less, more in pairwise(ordered))
-    assert all(more - less < 0.5 for less, more in pairwise(ordered[:4]))
+    assert all(extra >= less - 6 / 200 for less, extra in pairwise(ordered))
+    assert all(extra - less < 0.5 for less, extra in pairwise(ordered[:4]))
 
 
 @given(share=st.floats(0.0, 0.45), offset=st.floats(-0.03, 0.03), tolerance=st.floats(0.0, 0.9))
@@ -56,9 +57,9 @@ def test_wear_range_is_continuous_and_centred_on_a_given_inset(share, offset, to
     """Its middle is the inset itself, and it moves no faster than that."""
     block = Block(0.24, 0.8, centroid_offset=offset, inset=0.24 * share * (0.5 - abs(offset) / 0.24) / 0.5)
     low, high = wear_range(block, tolerance)
-    own = block.inset / block.width
-    assert 0.0 <= low <= own <= high < 0.5 - abs(offset) / 0.24
-    assert 0.5 * (low + high) == pytest.approx(own, abs=1e-12)
+    body_value = block.inset / block.width
+    assert 0.0 <= low <= body_value <= high < 0.5 - abs(offset) / 0.24
+    assert 0.5 * (low + high) == pytest.approx(body_value, abs=1e-12)
     nearby = wear_range(Block(0.24, 0.8, centroid_offset=offset, inset=block.inset + 1e-6), tolerance)
     assert np.abs(np.subtract(nearby, (low, high))).max() < 1e-5
 
@@ -67,26 +68,26 @@ def test_wear_range_is_continuous_and_centred_on_a_given_inset(share, offset, to
 def test_nominal_body_is_the_median_of_its_samples(name):
     """In width, height, inset, friction, restitution, amplitude and direction."""
     body, mu = load_block(name), 0.42
-    draws = np.random.default_rng(3).uniform(-1.0, 1.0, (20_001, 7))
+    draws = np.random.default_rng(3).uniform(-1.0, 1.0, (20_001, 8))
     motion = shaking("synthetic_jma.csv", "NS")
-    some = perturbed_respond_params(body, ParameterVariation(), draws, options=RespondOptions(mu=mu, restitution=0.05))
-    gains = _gains(motion, ParameterVariation(), draws, None)
-    right, left, centre, _ = some.blocks.columns
+    subset = sample_respond_params(body, ParameterVariation(), draws, options=RespondOptions(mu=mu, restitution=0.05))
+    gains = sample_gains(motion, ParameterVariation(), draws, None)
+    right, left, centre, _ = subset.blocks.columns
     across = 0.5 * (right + left)
     for values, nominal in (
         (across, 0.5 * sum(body.arms)),
         (centre, body.centre),
-        (some.mu, mu),
-        (some.mu_kinetic, mu),
-        (some.restitution, 0.05),
-        (some.rocking, 1.0),
+        (subset.mu, mu),
+        (subset.mu_kinetic, mu),
+        (subset.restitution, 0.05),
+        (subset.rocking, 1.0),
         (np.hypot(gains[:, 0], gains[:, 1]), 1.0),
     ):
         assert np.median(values) == pytest.approx(nominal, rel=0.01)
         assert values.min() < nominal
     assert np.median(np.degrees(np.arctan2(-gains[:, 1], gains[:, 0]))) == pytest.approx(0.0, abs=0.2)
-    rock = perturbed_rock_params(body, motion, Spread(), draws)
-    nominal = perturbed_rock_params(body, motion, Spread(), np.zeros((1, 7)))
+    rock = sample_rock_params(body, motion, ParameterVariation(), draws)
+    nominal = sample_rock_params(body, motion, ParameterVariation(), np.zeros((1, 8)))
     for field in ("alphas", "levers", "restitutions"):
         np.testing.assert_allclose(np.median(getattr(rock, field), axis=0), getattr(nominal, field)[0], rtol=0.01)
 
@@ -94,11 +95,11 @@ def test_nominal_body_is_the_median_of_its_samples(name):
 def test_samples_drawn_at_the_middle_are_the_body_itself():
     """Zero draws give the nominal body, contact and shaking, whatever its ranges."""
     body = load_block("refrigerator")
-    one = perturbed_respond_params(
-        body, ParameterVariation(), np.zeros((1, 7)), options=RespondOptions(mu=0.3, mu_kinetic=0.25, rocking_restitution=0.8)
+    first = sample_respond_params(
+        body, ParameterVariation(), np.zeros((1, 8)), options=RespondOptions(mu=0.3, mu_kinetic=0.25, rocking_restitution=0.8)
     ).row_params(0)
-    assert (one.rigid_body.right, one.rigid_body.left, one.rigid_body.height) == pytest.approx((*body.arms, body.centre), rel=1e-14)
-    assert (one.mu, one.mu_kinetic, one.restitution, one.rocking_restitution) == pytest.approx((0.3, 0.25, 0.0, 0.8))
+    assert (first.rigid_body.right, first.rigid_body.left, first.rigid_body.height) == pytest.approx((*body.arms, body.centre), rel=1e-14)
+    assert (first.mu, first.mu_kinetic, first.restitution, first.rocking_restitution) == pytest.approx((0.3, 0.25, 0.0, 0.8))
 
 
 @pytest.mark.parametrize("name", ["gravestone", "refrigerator"])
@@ -108,10 +109,10 @@ def test_probability_without_variation_equals_outcome(name, factor):
     body, motion = load_block(name), shaking("hanmer_springs_2016", "1", factor)
     falls = solve_respond(body, motion, mu=0.5).outcome.overturned
     assert respond_probability(body, motion, options=RespondOptions(mu=0.5), runs=2, versions=NOTHING_VARIES).overturned == float(falls)
-    still = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0, inset=0.0)
-    assert perturb(body, motion, 2, spread=still).overturned == 2 * rock_verdict(body, motion).overturned
+    assert perturb(body, motion, 2, spread=NOTHING_VARIES).overturned == 2 * rock_verdict(body, motion).overturned
 
 
+@pytest.mark.slow
 def test_outcome_agrees_with_probability_near_threshold():
     """Of 60 cases around the shaking at which half of the samples fall, at least 80 % have the verdict of the majority."""
     bodies = ((load_block("gravestone"), 0.6), (of_kind(Block(0.2424, 0.72), "gravestone"), 0.6), (Block(0.3, 1.2), 0.6))
@@ -137,15 +138,13 @@ def test_outcome_agrees_with_probability_near_threshold():
 def test_restitution_varies_to_both_sides_of_a_plastic_impact():
     """The lossier half keeps a share of Housner's ratio, at least 0.9; a given rocking restitution varies about itself, up to 1."""
     draws = draw_samples(400, 0)
-    some = perturbed_respond_params(Block(0.24, 0.8), ParameterVariation(), draws, options=RespondOptions(mu=0.5))
+    subset = sample_respond_params(Block(0.24, 0.8), ParameterVariation(), draws, options=RespondOptions(mu=0.5))
     lossy = draws[:, 3] < 0.0
-    assert 0.9 < some.rocking.min() < 0.905 and (some.rocking[~lossy] == 1.0).all() and (some.restitution[lossy] == 0.0).all()
-    assert 0.095 < some.restitution.max() <= 0.1
-    table = some.parameters(0.01)
-    assert (table[lossy, ROCKING_RESTITUTION] == -some.rocking[lossy]).all() and (table[~lossy, ROCKING_RESTITUTION] == -1.0).all()
-    ratio = perturbed_respond_params(
-        Block(0.24, 0.8), ParameterVariation(), draws, options=RespondOptions(mu=0.5, rocking_restitution=0.95)
-    )
+    assert 0.9 < subset.rocking.min() < 0.905 and (subset.rocking[~lossy] == 1.0).all() and (subset.restitution[lossy] == 0.0).all()
+    assert 0.095 < subset.restitution.max() <= 0.1
+    table = subset.parameters(0.01)
+    assert (table[lossy, ROCKING_RESTITUTION] == -subset.rocking[lossy]).all() and (table[~lossy, ROCKING_RESTITUTION] == -1.0).all()
+    ratio = sample_respond_params(Block(0.24, 0.8), ParameterVariation(), draws, options=RespondOptions(mu=0.5, rocking_restitution=0.95))
     assert ratio.rocking_given and ratio.rocking.min() < 0.86 and ratio.rocking.max() == 1.0
     assert np.median(ratio.rocking) == pytest.approx(0.95, abs=0.01)
 

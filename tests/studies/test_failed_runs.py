@@ -12,10 +12,12 @@ from seisblock.models.respond.batch import respond_many
 from seisblock.models.respond.options import RespondOptions
 from seisblock.readers import read
 from seisblock.records import Motion
+from seisblock.studies import sampling
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.map.station_response import StationBody
 from seisblock.studies.map.stations import survey_stations
-from seisblock.studies.respond import azimuths, mode_map, probability
+from seisblock.studies.respond import azimuths, mode_map
+from seisblock.studies.respond.probability import respond_probability
 from tests.models.respond.cases import at_lean
 
 BLOCK = Block(0.24, 0.8, name="shelf")
@@ -40,22 +42,22 @@ def drop_rows(monkeypatch):
 
 def test_respond_probability_counts_only_versions_with_an_answer(drop_rows):
     """All 20 versions fall; two that are given up do not count as standing."""
-    drop_rows(probability, [2, 16])
-    found = probability.respond_probability(BLOCK, PULSE, options=RespondOptions(mu=0.5), runs=20)
-    assert (found.runs, found.overturned, found.no_answer) == (18, 1.0, (3, 17))
-    assert found.interval == pytest.approx((0.025 ** (1 / 18), 1.0))
+    drop_rows(sampling, [2, 16])
+    result = respond_probability(BLOCK, PULSE, options=RespondOptions(mu=0.5), runs=20)
+    assert (result.runs, result.overturned, result.no_answer) == (18, 1.0, (3, 17))
+    assert result.interval == pytest.approx((0.025 ** (1 / 18), 1.0))
 
 
 def test_respond_probability_refuses_where_no_version_has_an_answer(drop_rows):
     """Without any answer there is no share."""
-    drop_rows(probability, None)
+    drop_rows(sampling, None)
     with pytest.raises(SolverError, match="20 of 20 runs have no result"):
-        probability.respond_probability(BLOCK, PULSE, options=RespondOptions(mu=0.5), runs=20)
+        respond_probability(BLOCK, PULSE, options=RespondOptions(mu=0.5), runs=20)
 
 
 def test_run_batch_names_versions_without_an_answer(drop_rows):
     """The row has its share and a warning; the table keeps its columns."""
-    drop_rows(probability, [0])
+    drop_rows(sampling, [0])
     table = run_batch("synthetic_jma.csv", BLOCK, "respond", components="EW", runs=10, mu=0.5)
     assert table["runs"] == [9]
     assert "1 of 10 samples stopped without a result and excluded (numbers 1)" in table["warnings"][0]
@@ -77,9 +79,9 @@ def test_survey_stations_leaves_out_a_direction_without_an_answer(drop_rows):
 def test_mode_map_marks_a_cell_without_an_answer(drop_rows):
     """The cell is none of the modes, and the share of the others is of all cells."""
     drop_rows(mode_map, [1])
-    found = mode_map.mode_map([0.2, 0.6], [1.0], [0.2], PULSE)
-    assert [mode_map.MODES_BY_SEVERITY[index] for index in found.governing[0]] == ["slide", "no answer"]
-    assert found.share("no answer") == 0.5
+    modes = mode_map.mode_map([0.2, 0.6], [1.0], [0.2], PULSE)
+    assert [mode_map.MODES_BY_SEVERITY[index] for index in modes.governing[0]] == ["slide", "no answer"]
+    assert modes.share("no answer") == 0.5
 
 
 def test_respond_many_answers_the_other_rows():
@@ -90,5 +92,5 @@ def test_respond_many_answers_the_other_rows():
     fates = respond_many(settings, still, initial=start)
     assert fates.gave_up.tolist() == [False, True, False]
     assert not fates.settled[1]
-    alone = respond_many(settings[2:], still, initial=start)
-    assert fates.end_s[2] == alone.end_s[0]
+    single = respond_many(settings[2:], still, initial=start)
+    assert fates.end_s[2] == single.end_s[0]

@@ -13,6 +13,7 @@ import seisblock
 from seisblock.bodies.block import Block
 from seisblock.core.errors import ParameterError
 from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.measures import rotated_spectrum
 from seisblock.models.respond.batch import respond_many
 from seisblock.models.respond.params import RespondParams, rigid_body
 from seisblock.models.respond.solve import solve_respond
@@ -26,9 +27,16 @@ from seisblock.report.exports.pelicun import pelicun_rows
 from seisblock.studies.capabilities import _CAPABILITIES, capabilities
 from seisblock.studies.fragility.capacities import capacities, moments
 from seisblock.studies.fragility.damage_states import EndStates, limit_state, limit_states
-from seisblock.studies.fragility.efficiency import efficiency_of_capacities, efficiency_of_cloud
-from seisblock.studies.fragility.estimate import Exceedances, FitOptions, estimate_curves
-from seisblock.studies.fragility.goodness_of_fit import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
+from seisblock.studies.fragility.estimate import (
+    Exceedances,
+    FitOptions,
+    efficiency_of_capacities,
+    efficiency_of_cloud,
+    estimate_curves,
+    goodness_of_capacities,
+    goodness_of_cloud,
+    goodness_of_stripes,
+)
 from seisblock.studies.fragility.intensity import factors_for, intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal, fit_fragility, fit_lognormals, fit_lognormals_shared_beta
 from seisblock.studies.fragility.run import prepare_bodies, run_fragility
@@ -42,7 +50,7 @@ INDEPENDENT = 1e-3
 
 ROUND_OFF = 1e-9
 SHELF = Block(0.3, 1.2, name="shelf")
-IM = {name: intensity_measure(name) for name in ("pga", "pgv", "pgd", "sa=0.5", "arias", "p*pgv")}
+IM = {name: intensity_measure(name) for name in ("pga", "pgv", "pgd", "sa=0.5", "arias", "cav", "p*pgv")}
 PGV = IM["pgv"]
 
 
@@ -77,9 +85,9 @@ class TestFits:
         levels = np.geomspace(0.1, 4.0, 40 if seed % 2 else 5)
         happened = (sample(44, seed=seed)[:, None] <= levels).sum(axis=0)
         a, b = by_statsmodels(add_constant(np.log(levels)), happened, 44)
-        found = fit_fragility(levels, happened, 44)
-        assert found.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
-        assert found.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
+        fit = fit_fragility(levels, happened, 44)
+        assert fit.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
+        assert fit.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
 
     def test_joint_fit_of_limits_equals_statsmodels(self):
         """One beta for three limits is the slope of statsmodels' regression with three constants; the medians rise."""
@@ -97,13 +105,13 @@ class TestFits:
         levels = np.geomspace(0.1, 4.0, 25)
         counts = np.array([(sample(30, seed=seed)[:, None] <= levels).sum(axis=0) for seed in range(20)] + [np.zeros(25)], dtype=float)
         medians, betas = fit_lognormals(levels, counts, np.full((1, 25), 30.0))
-        alone = [fit_fragility(levels, row, 30) for row in counts[:-1]]
-        assert medians[:-1] == pytest.approx([each.median for each in alone], rel=1e-8)
-        assert betas[:-1] == pytest.approx([each.beta for each in alone], rel=1e-8)
+        single = [fit_fragility(levels, row, 30) for row in counts[:-1]]
+        assert medians[:-1] == pytest.approx([item.median for item in single], rel=1e-8)
+        assert betas[:-1] == pytest.approx([item.beta for item in single], rel=1e-8)
         assert np.isnan([medians[-1], betas[-1]]).all()
 
     def test_ida_fit_equals_log_moments(self):
-        """Where all happened: mean and standard deviation of the logarithms."""
+        """With every limit reached the fit is mean and standard deviation of the logarithms."""
         logs = np.log(sample(30))
         medians, betas = moments(logs, np.ones((1, 30)), 10.0)
         assert medians[0] == pytest.approx(np.exp(logs.mean()), rel=ROUND_OFF)
@@ -112,10 +120,10 @@ class TestFits:
     def test_ida_fit_is_right_censored(self):
         """Censored at the top: scipy's fit of a normal sample censored on the right."""
         logs, top = np.log(sample(40)), np.log(0.9)
-        seen = logs[logs <= top]
+        observed = logs[logs <= top]
         mean, deviation = norm.fit(CensoredData.right_censored(np.minimum(logs, top), logs > top))
         medians, betas = moments(np.where(logs <= top, logs, np.inf), np.ones((1, 40)), top)
-        assert 20 < seen.size < 35
+        assert 20 < observed.size < 35
         assert medians[0] == pytest.approx(np.exp(mean), rel=INDEPENDENT)
         assert betas[0] == pytest.approx(deviation, rel=INDEPENDENT)
 
@@ -178,10 +186,27 @@ class TestIntensity:
         """PGA, PGV and PGD are what `measure` says of the component, and of an azimuth."""
         record = seisblock.read("synthetic_jma.csv")
         for name in ("EW", "37"):
-            told = seisblock.measure(record, [name]).components[0]
+            measures = seisblock.measure(record, [name]).components[0]
             motion = motion_of(record, name)
-            found = [IM[key].of(motion) for key in ("pga", "pgv", "pgd", "arias")]
-            assert found == pytest.approx([told.pga_m_s2, told.pgv_m_s, told.pgd_m, told.arias_m_s], rel=1e-12)
+            result = [IM[key].of(motion) for key in ("pga", "pgv", "pgd", "arias", "cav")]
+            assert result == pytest.approx(
+                [measures.pga_m_s2, measures.pgv_m_s, measures.pgd_m, measures.arias_m_s, measures.cav_m_s], rel=1e-12
+            )
+
+    def test_rotated_measures_are_those_of_the_record(self):
+        """RotD50 and RotD100 of both horizontals, whatever the direction of the motion; they grow with the factor; sa:T is sa=T."""
+        record = seisblock.read("synthetic_jma.csv")
+        spectrum = rotated_spectrum(record, [0.5])
+        for text, row in (("rotd50:0.5", spectrum.rotd50_m_s2), ("rotd100=0.5s", spectrum.rotd100_m_s2)):
+            measure = intensity_measure(text)
+            assert [measure.of(motion_of(record, name)) for name in ("EW", "37")] == [row[0]] * 2
+            assert measure.of(motion_of(process.scale(record, 3.7), "EW")) == pytest.approx(3.7 * row[0], rel=1e-9)
+            assert (measure.unit, measure.power) == ("m/s^2", 1)
+            assert intensity_measure(measure.name) == measure
+        assert intensity_measure("sa:0.5") == IM["sa=0.5"]
+        assert intensity_measure("rotd50:0.5").label == "RotD50(0.5 s)"
+        with pytest.raises(ParameterError, match=r"rotd50:0\.5 for the curve: a record with two horizontal components is required"):
+            intensity_measure("rotd50:0.5").of(motion_of(seisblock.read("elcentro_1940_ns.csv"), "NS"))
 
     def test_p_pgv_measure_scales_with_body_size(self):
         """P PGV/g: twice the size, p over the root of two."""
@@ -191,7 +216,7 @@ class TestIntensity:
         with pytest.raises(ParameterError, match="use pgv"):
             IM["p*pgv"].share(0.3, STANDARD_GRAVITY)
 
-    @pytest.mark.parametrize("text", ["pgx", "sa", "sa=x", "sa=-1", "pga=2"])
+    @pytest.mark.parametrize("text", ["pgx", "sa", "sa=x", "sa=-1", "pga=2", "rotd50", "rotd100:0", "cav:1"])
     def test_intensity_measure_rejects_invalid_name(self, text):
         """An unknown name, a period that is missing, none, or too many."""
         with pytest.raises(ParameterError):
@@ -222,53 +247,49 @@ class TestRuns:
         for solver, body, options in (("rock", SHELF, {}), ("respond", SHELF, {"mu": 0.3}), ("slide", 0.2, {})):
             (placed,) = prepare_bodies([body], solver, options)
             ends[solver] = capabilities(solver).end_states(placed, motion, factors, None)
-        alone = [solve_rock(SHELF, each).outcome for each in scaled]
-        assert ends["rock"].overturned.tolist() == [each.overturned for each in alone]
-        assert ends["rock"].tilt_ratio == pytest.approx([each.max_rotation_ratio for each in alone], rel=1e-9)
+        single = [solve_rock(SHELF, item).outcome for item in scaled]
+        assert ends["rock"].overturned.tolist() == [item.overturned for item in single]
+        assert ends["rock"].tilt_ratio == pytest.approx([item.max_rotation_ratio for item in single], rel=1e-9)
         assert 0 < ends["rock"].overturned.sum() < 6
-        free = [solve_respond(SHELF, each, mu=0.3, sensitivity=False).outcome for each in scaled]
-        assert ends["respond"].overturned.tolist() == [each.overturned for each in free]
+        free = [solve_respond(SHELF, item, mu=0.3, sensitivity=False).outcome for item in scaled]
+        assert ends["respond"].overturned.tolist() == [item.overturned for item in free]
         stood = ~ends["respond"].overturned
         assert ends["respond"].slip_m[stood] == pytest.approx(
-            [abs(each.final_displacement_m) for each in free if not each.overturned], abs=1e-9
+            [abs(item.final_displacement_m) for item in free if not item.overturned], abs=1e-9
         )
         assert np.isinf(ends["respond"].slip_m[~stood]).all()
-        slid = [solve_slide(0.2, each).outcome for each in scaled]
-        assert ends["slide"].slip_m == pytest.approx([max(each.max_slip_m, abs(each.final_slip_m)) for each in slid], abs=1e-12)
+        slid = [solve_slide(0.2, item).outcome for item in scaled]
+        assert ends["slide"].slip_m == pytest.approx([max(item.max_slip_m, abs(item.final_slip_m)) for item in slid], abs=1e-12)
 
     def test_tilt_of_sample_is_relative_to_its_slenderness(self, records):
         """A lean is over the slenderness of the version that leans, worn and resized as it is, not of the body in the middle."""
         motion, factors, draws = motion_of(records[1], "EW"), np.array([0.5, 1.0, 1.6]), version_draws(5, 4)
-        shelf, (size, second, rough, bouncy, _, wear, wide) = SHELF.with_wear(0.1), draws.T
-        larger, rocking = 1.0 + 0.05 * size, [0.9 * (1.0 + 0.05 * each) for each in rough]
-        blocks = {
-            "rock": [
-                Block(0.3 * a * (1.0 + 0.05 * b), 1.2 * a).with_wear(0.1 + 0.01 * c) for a, b, c in zip(larger, second, wear, strict=True)
-            ],
-            "respond": [
-                Block(0.3 * (1.0 + 0.05 * a), 1.2 * b).with_wear(0.1 + 0.01 * c) for a, b, c in zip(wide, larger, second, strict=True)
-            ],
-        }
+        shelf, (tall, worn, rough, bouncy, _, _, wide, _) = SHELF.with_wear(0.1), draws.T
+        rocking = [min(0.9 * (1.0 + 0.1 * entry), 1.0) for entry in bouncy]
+        blocks = [
+            Block(0.3 * (1.0 + 0.05 * a), 1.2 * (1.0 + 0.05 * b)).with_wear(0.1 + 0.01 * c)
+            for a, b, c in zip(wide, tall, worn, strict=True)
+        ]
         assert bouncy.min() < 0.0 < bouncy.max()
         for solver, options in (("rock", {"restitution": 0.9}), ("respond", {"mu": 0.5})):
             (placed,) = prepare_bodies([shelf], solver, options)
             ends = capabilities(solver).end_states(placed, motion, factors, draws)
-            alone = []
+            single = []
             for factor in factors:
-                each = Motion(motion.acceleration * factor, motion.dt)
-                for v, block in enumerate(blocks[solver]):
+                item = Motion(motion.acceleration * factor, motion.dt)
+                for v, block in enumerate(blocks):
                     if solver == "rock":
-                        outcome = solve_rock(block, each, restitution=rocking[v]).outcome
-                        alone.append((outcome.overturned, outcome.max_rotation_ratio))
+                        outcome = solve_rock(block, item, restitution=rocking[v]).outcome
+                        single.append((outcome.overturned, outcome.max_rotation_ratio))
                         continue
                     mu, bounce = 0.5 * (1.0 + 0.2 * rough[v]), 0.1 * bouncy[v]
                     setting = RespondParams(rigid_body(block), mu, mu, max(bounce, 0.0), rocking_share=1.0 + min(bounce, 0.0))
-                    fates = respond_many([setting], each)
-                    alone.append((bool(fates.overturned[0]), fates.max_rotation_rad[0] / block.slenderness))
+                    fates = respond_many([setting], item)
+                    single.append((bool(fates.overturned[0]), fates.max_rotation_rad[0] / block.slenderness))
             stood = ~ends.overturned
-            assert ends.overturned.tolist() == [fell for fell, _ in alone]
+            assert ends.overturned.tolist() == [fell for fell, _ in single]
             assert stood.sum() >= 5 and (ends.tilt_ratio[stood] > 0.1).any()
-            assert ends.tilt_ratio[stood] == pytest.approx([lean for fell, lean in alone if not fell], rel=1e-6, abs=1e-9)
+            assert ends.tilt_ratio[stood] == pytest.approx([lean for fell, lean in single if not fell], rel=1e-6, abs=1e-9)
 
     def test_pile_runs_equal_solve_stack(self):
         """A stone that falls at some factor is what the pile's own solver says."""
@@ -296,17 +317,17 @@ class TestRuns:
 
     def test_stripes_and_ida_agree_for_sliding(self, records):
         """Sliding farther than a length is monotone: stripes and first exceedances give one median and beta within their intervals."""
-        found = {
+        fragility = {
             method: run_fragility(records, 0.1, "slide", limits="slip=5cm", im="pgv", method=method, bootstrap=200).curves[0]
             for method in ("stripes", "ida")
         }
-        assert found["ida"].non_monotone_records == 0
-        low, high = found["stripes"].median_interval
-        assert low < found["ida"].median < high
-        assert found["ida"].beta == pytest.approx(found["stripes"].beta, rel=0.15)
+        assert fragility["ida"].non_monotone_records == 0
+        low, high = fragility["stripes"].median_interval
+        assert low < fragility["ida"].median < high
+        assert fragility["ida"].beta == pytest.approx(fragility["stripes"].beta, rel=0.15)
 
     def test_cloud_fit_equals_statsmodels(self, records):
-        """What happened under the records unscaled, on the logarithm of the intensity, as statsmodels regresses it."""
+        """The cloud fit on the logarithm of the intensity equals the regression of statsmodels."""
         factors = np.exp(np.random.default_rng(5).normal(0.4, 0.3, 20))
         uneven = [Preparation(scale=float(factor)).apply(record) for record, factor in zip(records, factors, strict=True)]
         (curve,) = run_fragility(uneven, SHELF, "rock", im="pgd", method="cloud", bootstrap=50).curves
@@ -348,10 +369,10 @@ class TestRuns:
             Record(station=r.station, start=None, dt=r.dt, components=(r.components[0], Component("NS", r.components[0].acceleration, 0.0)))
             for r in records
         ]
-        one, two = (run_fragility(some, SHELF, "rock", im="pgv", steps=15, bootstrap=100).curves[0] for some in (records, twice))
+        first, two = (run_fragility(subset, SHELF, "rock", im="pgv", steps=15, bootstrap=100).curves[0] for subset in (records, twice))
         assert (two.records, two.motions) == (20, 40)
-        assert two.median_interval == pytest.approx(one.median_interval, rel=ROUND_OFF)
-        assert two.beta_interval == pytest.approx(one.beta_interval, rel=ROUND_OFF)
+        assert two.median_interval == pytest.approx(first.median_interval, rel=ROUND_OFF)
+        assert two.beta_interval == pytest.approx(first.beta_interval, rel=ROUND_OFF)
 
     @pytest.mark.parametrize(
         ("change", "says"),
@@ -371,11 +392,11 @@ class TestRuns:
     )
     def test_run_fragility_rejects_invalid_requests(self, change, says, records):
         """One record, levels that say nothing, and words that mean nothing."""
-        asked = {"im": "pgv", "bootstrap": 2, **change}
-        some = records[: asked.pop("records", 20)]
-        solver = asked.pop("solver", "rock")
+        keywords = {"im": "pgv", "bootstrap": 2, **change}
+        subset = records[: keywords.pop("records", 20)]
+        solver = keywords.pop("solver", "rock")
         with pytest.raises(ParameterError, match=says):
-            run_fragility(some, 0.2 if solver == "slide" else SHELF, solver, **asked)
+            run_fragility(subset, 0.2 if solver == "slide" else SHELF, solver, **keywords)
 
     def test_run_fragility_names_zero_record(self, records):
         """No factor brings stillness to a level."""
@@ -408,8 +429,8 @@ class TestScatter:
     @pytest.mark.parametrize("method", ["stripes", "ida"])
     def test_scatter_obeys_law_of_total_variance(self, method):
         """Motions of beta 0.4, versions whose medians differ by 0.3: both are found, and their squares add up to that of all runs."""
-        dice = np.random.default_rng(2)
-        motions, versions = dice.normal(0.0, 0.4, 60), dice.normal(0.0, 0.3, 40)
+        rng = np.random.default_rng(2)
+        motions, versions = rng.normal(0.0, 0.4, 60), rng.normal(0.0, 0.3, 40)
         curve = one_curve(motions[:, None] + versions, np.geomspace(0.05, 20.0, 150), method=method)
         assert curve.dispersion.beta_record_to_record == pytest.approx(motions.std(ddof=1), rel=0.1)
         assert curve.dispersion.beta_parameter == pytest.approx(versions.std(ddof=1), rel=0.02)
@@ -422,78 +443,80 @@ class TestScatter:
         factor = 1.4
         ends = capabilities("rock").end_states(placed, motion, np.array([factor]), version_draws(60, 7))
         scaled = Motion(motion.acceleration * factor, motion.dt)
-        same = seisblock.uncertainty.perturb(SHELF, scaled, 60, spread=seisblock.uncertainty.Spread(amplitude=0.0, azimuth_deg=0.0), seed=7)
+        same = seisblock.uncertainty.perturb(
+            SHELF, scaled, 60, spread=seisblock.uncertainty.ParameterVariation(amplitude=0.0, azimuth_deg=0.0), seed=7
+        )
         assert int(ends.overturned.sum()) == same.overturned
         assert 0 < same.overturned < 60
 
     def test_non_monotone_motion_is_counted(self):
         """It falls at one level and stands at the next: counted, and its first exceedance is what `ida` takes."""
         passed = np.array([[False, True, False, True], [False, False, True, True], [False, False, False, False]])
-        found = capacities(passed, np.log([1.0, 2.0, 4.0, 8.0]))
-        assert found.monotone.tolist() == [False, True, True]
-        assert np.exp(found.log_factor) == pytest.approx([np.sqrt(2.0), np.sqrt(8.0), np.inf])
+        result = capacities(passed, np.log([1.0, 2.0, 4.0, 8.0]))
+        assert result.monotone.tolist() == [False, True, True]
+        assert np.exp(result.log_factor) == pytest.approx([np.sqrt(2.0), np.sqrt(8.0), np.inf])
 
     def test_efficiency_slope_equals_scipy_regression(self):
         """Capacities that depend on the shape of the motion: the slope that is left is that put in, as scipy's regression has it."""
-        dice = np.random.default_rng(1)
-        shape = dice.normal(0.0, 0.5, 40)
-        logs = 0.8 * shape + dice.normal(0.0, 0.2, 40)
-        found = efficiency_of_capacities(PGV, np.ones(40), logs[:, None], [("ln(pgv/pga)", shape), ("magnitude", np.full(40, np.nan))])
-        other = linregress(shape, logs)
-        (slope,) = found.sufficiency
-        assert (slope.slope_ratio, slope.probability) == pytest.approx((other.slope, other.pvalue), rel=1e-6)
+        rng = np.random.default_rng(1)
+        shape = rng.normal(0.0, 0.5, 40)
+        logs = 0.8 * shape + rng.normal(0.0, 0.2, 40)
+        result = efficiency_of_capacities(PGV, np.ones(40), logs[:, None], [("ln(pgv/pga)", shape), ("magnitude", np.full(40, np.nan))])
+        second = linregress(shape, logs)
+        (slope,) = result.sufficiency
+        assert (slope.slope_ratio, slope.probability) == pytest.approx((second.slope, second.pvalue), rel=1e-6)
         better = efficiency_of_capacities(PGV, np.exp(-0.8 * shape), logs[:, None], [("ln(pgv/pga)", shape)])
-        assert better.beta < 0.5 * found.beta and better.sufficiency[0].probability > 0.05
+        assert better.beta < 0.5 * result.beta and better.sufficiency[0].probability > 0.05
 
     def test_cloud_slope_equals_statsmodels(self):
         """A property that matters comes out of the ratio of the likelihoods as statsmodels has it."""
-        dice = np.random.default_rng(4)
-        x, z = dice.normal(0.0, 0.6, 120), dice.normal(0.0, 1.0, 120)
-        fell = (x + 0.5 * z > dice.normal(0.0, 0.5, 120)).astype(float)
-        found = efficiency_of_cloud(PGV, np.exp(x), fell, 1.0, [("magnitude", z)])
+        rng = np.random.default_rng(4)
+        x, z = rng.normal(0.0, 0.6, 120), rng.normal(0.0, 1.0, 120)
+        fell = (x + 0.5 * z > rng.normal(0.0, 0.5, 120)).astype(float)
+        result = efficiency_of_cloud(PGV, np.exp(x), fell, 1.0, [("magnitude", z)])
         a, b, c = by_statsmodels(np.column_stack([np.ones(120), x, z - z.mean()]), fell, 1)
-        assert found.sufficiency[0].slope_ratio == pytest.approx(-c / b, rel=INDEPENDENT)
-        assert found.sufficiency[0].probability < 1e-4 and a == a
+        assert result.sufficiency[0].slope_ratio == pytest.approx(-c / b, rel=INDEPENDENT)
+        assert result.sufficiency[0].probability < 1e-4 and a == a
 
     def test_goodness_of_fit_rejects_bimodal_data(self):
         """Forty draws of a lognormal pass, two humps far apart do not: in stripes, first exceedances and clouds."""
         levels = np.geomspace(0.02, 20.0, 60)
-        one, two = np.log(sample(40)), np.log(np.concatenate([sample(30, median=0.1, beta=0.1), sample(10, median=3.0, beta=0.1)]))
-        for logs, fits in ((one, True), (two, False)):
+        first, two = np.log(sample(40)), np.log(np.concatenate([sample(30, median=0.1, beta=0.1), sample(10, median=3.0, beta=0.1)]))
+        for logs, fits in ((first, True), (two, False)):
             counts = (np.exp(logs)[:, None] <= levels).sum(axis=0).astype(float)
-            dice = np.random.default_rng(0)
-            assert goodness_of_stripes(fit_fragility(levels, counts, 40), levels, counts, 40.0, 40, dice).fits is fits
+            rng = np.random.default_rng(0)
+            assert goodness_of_stripes(fit_fragility(levels, counts, 40), levels, counts, 40.0, 40, rng).fits is fits
             curve = Lognormal(float(np.exp(logs.mean())), float(logs.std(ddof=1)))
-            assert goodness_of_capacities(curve, logs, np.log(20.0), dice).fits is fits
-        dice = np.random.default_rng(8)
-        x = np.exp(dice.uniform(-2.0, 2.0, 400))
+            assert goodness_of_capacities(curve, logs, np.log(20.0), rng).fits is fits
+        rng = np.random.default_rng(8)
+        x = np.exp(rng.uniform(-2.0, 2.0, 400))
         for chance, fits in ((ndtr(np.log(x) / 0.8), True), (np.where(np.abs(np.log(x)) < 1.0, 0.5, x > 1.0), False)):
-            fell = (dice.uniform(size=400) < chance).astype(float)
-            assert goodness_of_cloud(fit_fragility(x, fell, 1), x, fell, 1.0, dice).fits is fits
+            fell = (rng.uniform(size=400) < chance).astype(float)
+            assert goodness_of_cloud(fit_fragility(x, fell, 1), x, fell, 1.0, rng).fits is fits
 
 
 def test_all_azimuths_counts_any_direction():
     """A record passes where the block falls in any of 36 directions, at the largest intensity of them; two-sided in 72; it is said."""
-    few = [
+    subset = [
         Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), shaking(seed)[1], strict=True)), 0.005 * (1 + seed))
         for seed in range(3)
     ]
     for body in (SHELF, Block(0.3, 1.2, centroid_offset=0.03, name="lopsided")):
-        study = run_fragility(few, body, "rock", im="pga", levels=[4.0, 8.0, 12.0, 18.0], components="all-azimuths", bootstrap=20)
+        study = run_fragility(subset, body, "rock", im="pga", levels=[4.0, 8.0, 12.0, 18.0], components="all-azimuths", bootstrap=20)
         (curve,) = study.curves
         assert (curve.records, curve.motions) == (3, 3)
         assert any("all azimuths in steps of 5 degrees" in note for note in study.notes)
         for level in curve.levels:
             falls = 0
-            for record in few:
+            for record in subset:
                 largest = max(IM["pga"].of(motion_of(record, str(azimuth))) for azimuth in range(0, 180, 5))
                 scaled = seisblock.records.scale(record, level.im / largest)
-                falls += any(each.overturned for each in seisblock.studies.rock_directions(body, scaled))
+                falls += any(direction.overturned for direction in seisblock.studies.rock_directions(body, scaled))
             assert (level.exceeding, level.runs) == (falls, 3)
     counts = [level.exceeding for level in curve.levels]
     assert counts[0] < counts[-1]
     with pytest.raises(ParameterError, match="stack does not support all azimuths"):
-        run_fragility(few, seisblock.load_pile("wagata"), "stack", components="all-azimuths")
+        run_fragility(subset, seisblock.load_pile("wagata"), "stack", components="all-azimuths")
 
 
 def test_floor_motion_intensity_is_that_of_ground():
@@ -523,7 +546,7 @@ def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch,
     def study():
         return run_fragility(records, SHELF, "respond", mu=0.7, im="pgv", levels=levels, method=method, bootstrap=20)
 
-    whole = study()
+    full = study()
     follow, calls = capabilities("respond").end_states, []
 
     def lossy(placed, motion, factors, draws):
@@ -536,17 +559,17 @@ def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch,
     monkeypatch.setitem(_CAPABILITIES, "respond", replace(_CAPABILITIES["respond"], end_states=lossy))
     partial = study()
     curve = partial.curves[0]
-    assert (whole.curves[0].no_answer, curve.no_answer) == (0, 1)
+    assert (full.curves[0].no_answer, curve.no_answer) == (0, 1)
     motions = curve.motions
     assert [level.runs for level in curve.levels] == [motions, motions - 1, motions, motions]
-    assert curve.median == pytest.approx(whole.curves[0].median, rel=0.1)
+    assert curve.median == pytest.approx(full.curves[0].median, rel=0.1)
     assert any("1 of" in note and "stopped without a result" in note and calls[0].name in note for note in partial.notes)
 
 
 def test_capacities_leave_out_levels_without_an_answer():
     """The level below the first one that is passed is the last of those that have an answer."""
     passed = np.array([[False, False, True, True], [False, False, False, False]])
-    answered = np.array([[True, False, True, True], [False, False, False, False]])
-    found = capacities(passed, np.array([0.0, 1.0, 2.0, 3.0]), answered)
-    assert found.log_factor.tolist() == [1.0, np.inf]
-    assert found.monotone.all()
+    valid_mask = np.array([[True, False, True, True], [False, False, False, False]])
+    result = capacities(passed, np.array([0.0, 1.0, 2.0, 3.0]), valid_mask)
+    assert result.log_factor.tolist() == [1.0, np.inf]
+    assert result.monotone.all()

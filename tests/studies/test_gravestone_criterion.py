@@ -1,7 +1,5 @@
 """The criterion study of gravestones: its fits, its grid, and taking it up again."""
 
-import json
-
 import numpy as np
 import pytest
 
@@ -9,7 +7,7 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.pile.top_block import rigid_top
-from seisblock.core.errors import ParameterError, RecordFormatError
+from seisblock.core.errors import OutputError, ParameterError
 from seisblock.core.units import SUN
 from seisblock.criteria.gravestones import PLAIN, overturning_level
 from seisblock.records import Motion
@@ -52,36 +50,32 @@ def test_fit_of_exact_thresholds_recovers_level():
 
 def test_study_resumes_from_checkpoint(tmp_path):
     """Finished sines are not run again, a half-written last line is, and the answer is the same."""
-    held = tmp_path / "study.jsonl"
-    whole = criterion_study(SAO, **SMALL, resume=held)
-    assert [t.ratio for t in whole.thresholds] == [None, 3.0]
-    lines = held.read_text(encoding="utf-8").splitlines()
-    marked = json.loads(lines[0])
-    marked["ratio"] = 9.0
-    held.write_text(json.dumps(marked) + "\n" + lines[1][:20], encoding="utf-8")
-    told = []
-    again = criterion_study(SAO, **SMALL, resume=held, progress=lambda done, total: told.append((done, total)))
-    assert [t.ratio for t in again.thresholds] == [9.0, 3.0]
-    assert told == [(2, 2)]
-    assert criterion_study(SAO, **SMALL, resume=held).thresholds == again.thresholds
-    assert len(held.read_text(encoding="utf-8").splitlines()) == 2  # nothing is left of the half-written line
+    path = tmp_path / "study.jsonl"
+    study = criterion_study(SAO, **SMALL, resume=path)
+    assert [t.ratio for t in study.thresholds] == [None, 3.0]
+    header, *lines = path.read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 2
+    path.write_text(f"{header}\n{lines[0]}\n{lines[1][:20]}", encoding="utf-8")
+    progress = []
+    resumed = criterion_study(SAO, **SMALL, resume=path, progress=lambda result, total: progress.append((result, total)))
+    assert resumed.thresholds == study.thresholds
+    assert progress == [(2, 2)]
+    assert path.read_text(encoding="utf-8").splitlines() == [header, *lines]
 
 
 def test_study_rejects_checkpoint_of_another_study(tmp_path):
-    """What belongs to another pile, or is no study, is one sentence, and stays as it is."""
-    held = tmp_path / "study.jsonl"
-    criterion_study(SAO, **SMALL, resume=held)
-    before = held.read_text(encoding="utf-8")
-    with pytest.raises(ParameterError, match="belongs to a study of another pile"):
-        criterion_study(Pile("another", SAO.stones), **SMALL, resume=held)
-    assert held.read_text(encoding="utf-8") == before
-    held.write_text("nothing\n" + before, encoding="utf-8")
-    with pytest.raises(RecordFormatError, match="line 1"):
-        criterion_study(SAO, **SMALL, resume=held)
-    held.write_text("somebody's only line", encoding="utf-8")
-    with pytest.raises(RecordFormatError, match="line 1"):
-        criterion_study(SAO, **SMALL, resume=held)
-    assert held.read_text(encoding="utf-8") == "somebody's only line"
+    """A file of another pile, or of another kind, is one sentence, and is unchanged."""
+    path = tmp_path / "study.jsonl"
+    criterion_study(SAO, **SMALL, resume=path)
+    before = path.read_text(encoding="utf-8")
+    with pytest.raises(OutputError, match="belongs to a run with other bodies"):
+        criterion_study(Pile("another", SAO.stones), **SMALL, resume=path)
+    assert path.read_text(encoding="utf-8") == before
+    for text in ("nothing\n" + before, "a line of another program", ""):
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(OutputError, match="no header of an interrupted run"):
+            criterion_study(SAO, **SMALL, resume=path)
+        assert path.read_text(encoding="utf-8") == text
     with pytest.raises(ParameterError, match="at least one"):
         criterion_study(SAO, pgas=())
 
@@ -113,9 +107,9 @@ def test_sine_record_has_threshold_of_sine():
     # a cosine taper keeps its velocity free of an offset
     motion = sine_base(2.0, 1.0, 6.0)
     motion = Motion.from_arrays(motion.horizontal * np.hanning(motion.samples) ** 0.25, motion.dt)
-    (found,) = record_thresholds(SAO, motion, pgas=(6.0,), ratios=(1.5, 2.0, 3.0, 4.0), points=2)
-    assert found.frequency_hz == pytest.approx(2.0, rel=0.05)
+    (shaking,) = record_thresholds(SAO, motion, pgas=(6.0,), ratios=(1.5, 2.0, 3.0, 4.0), points=2)
+    assert shaking.frequency_hz == pytest.approx(2.0, rel=0.05)
     assert (
-        found.ratio
+        shaking.ratio
         == criterion_study(SAO, frequencies=(2.0,), pgas=(6.0,), ratios=(1.5, 2.0, 3.0, 4.0), points=2, duration=6.0).thresholds[0].ratio
     )

@@ -1,4 +1,4 @@
-"""How close it was: factors at which the verdict changes, and how often it changes when everything does a little."""
+"""Margin and perturbation: factors at which the verdict changes, and its frequency under small changes."""
 
 import math
 from dataclasses import replace
@@ -16,8 +16,9 @@ from seisblock.models.rock.solve import solve_rock
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
 from seisblock.studies.parallel import MAX_PENDING, map_threads
-from seisblock.studies.rocking.margin import find_margin, flag_near_flip, has_nearby_flip, nearest_flip
-from seisblock.studies.rocking.perturb import Spread, perturb
+from seisblock.studies.rocking.margin import find_margin, flag_near_flip, nearest_flip
+from seisblock.studies.rocking.perturb import perturb
+from seisblock.studies.sampling import ParameterVariation
 
 ALPHA, P = 0.25, 2.14
 BLOCK = from_slenderness(ALPHA, P)
@@ -39,7 +40,7 @@ def test_margin_finds_every_window_of_one_sine():
     assert margin.nearest_flip == margin.flips[0]
     assert margin.windows[0].first == 0
     assert margin.windows[-1].last == margin.limit == 3.0
-    assert all(one.last == other.first for one, other in pairwise(margin.windows))
+    assert all(single.last == second.first for single, second in pairwise(margin.windows))
 
 
 def test_outcomes_differ_on_both_sides_of_each_flip():
@@ -75,29 +76,29 @@ def test_outcome_within_2_percent_of_flip_is_flagged():
         motion = one_sine(x)
         response = solve_rock(BLOCK, motion, restitution=0.9, linear=True)
         assert response.outcome.verdict_flips_within_2_percent is None
-        told = flag_near_flip(response)
+        message = flag_near_flip(response)
         assert (
-            told.outcome.verdict_flips_within_2_percent
-            is has_nearby_flip(BLOCK, motion, options=RockOptions(restitution=0.9, linear=True))
+            message.outcome.verdict_flips_within_2_percent
+            is (nearest_flip(BLOCK, motion, options=RockOptions(restitution=0.9, linear=True)) is not None)
             is fragile
         )
-        assert any("sensitive to the amplitude" in text for text in told.warnings) is fragile
-        factor = told.outcome.flips_at_factor
+        assert any("sensitive to the amplitude" in text for text in message.warnings) is fragile
+        factor = message.outcome.flips_at_factor
         assert (factor is not None) is fragile
         if fragile:
-            other = solve_rock(BLOCK, one_sine(x * factor), restitution=0.9, linear=True).outcome
+            second = solve_rock(BLOCK, one_sine(x * factor), restitution=0.9, linear=True).outcome
             nearer = solve_rock(BLOCK, one_sine(x * (factor + math.copysign(0.001, 1.0 - factor))), restitution=0.9, linear=True).outcome
-            assert other.overturned is not response.outcome.overturned
+            assert second.overturned is not response.outcome.overturned
             assert nearer.overturned is response.outcome.overturned
 
 
 def test_margin_includes_flips_near_factor_one():
     """However coarse the scan, what a look at 2 % finds is among its windows, and the share is that of the even factors."""
     x = 3.019 * 0.985
-    near = nearest_flip(BLOCK, one_sine(x), options=RockOptions(restitution=0.9, linear=True))
+    nearby = nearest_flip(BLOCK, one_sine(x), options=RockOptions(restitution=0.9, linear=True))
     margin = find_margin(BLOCK, one_sine(x), step=0.75, limit=1.5, options=RockOptions(restitution=0.9, linear=True))
-    assert near is not None and any(window.overturned and window.first <= near <= window.last for window in margin.windows)
-    assert margin.first_fall == pytest.approx(near, abs=0.001)
+    assert nearby is not None and any(window.overturned and window.first <= nearby <= window.last for window in margin.windows)
+    assert margin.first_fall == pytest.approx(nearby, abs=0.001)
     assert margin.falls_above_first == 1.0
 
 
@@ -110,7 +111,8 @@ def test_margin_rejects_invalid_scan(limit, step):
 
 def test_perturb_far_from_flip_is_certain():
     """All or none of the runs overturn, and the interval says what so few runs can tell."""
-    sure = perturb(BLOCK, one_sine(4.5), 60, options=RockOptions(restitution=0.9))
+    narrow = ParameterVariation(restitution=0.05, amplitude=0.05)
+    sure = perturb(BLOCK, one_sine(4.5), 60, options=RockOptions(restitution=0.9), spread=narrow)
     assert (sure.overturned, sure.probability, sure.probability_interval[1]) == (60, 1.0, 1.0)
     assert 0.9 < sure.probability_interval[0] < 1.0
     never = perturb(BLOCK, one_sine(1.5), 60, options=RockOptions(restitution=0.9))
@@ -120,19 +122,19 @@ def test_perturb_far_from_flip_is_certain():
 def test_perturb_at_flip_gives_one_half():
     """With the amplitude alone changing, half of the runs lie on each side of a flip."""
     flip = find_margin(BLOCK, one_sine(3.0), options=RockOptions(restitution=0.9)).flips[0]
-    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
-    found = perturb(BLOCK, one_sine(3.0 * flip), 400, options=RockOptions(restitution=0.9), spread=only)
-    assert found.probability_interval[0] < 0.5 < found.probability_interval[1]
+    only = ParameterVariation(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
+    result = perturb(BLOCK, one_sine(3.0 * flip), 400, options=RockOptions(restitution=0.9), spread=only)
+    assert result.probability_interval[0] < 0.5 < result.probability_interval[1]
 
 
 @pytest.mark.parametrize(("above", "share"), [(0.01, 0.25), (-0.01, 0.75), (0.021, 0.0), (-0.021, 1.0)])
 def test_perturb_amplitudes_are_uniform(above, share):
     """Amplitudes within 2 % lie evenly: a quarter of them beyond a flip 1 % above the middle, none beyond one at 2.1 %."""
     flip = find_margin(BLOCK, one_sine(3.0), options=RockOptions(restitution=0.9)).flips[0]
-    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
-    found = perturb(BLOCK, one_sine(3.0 * flip / (1.0 + above)), 2000, options=RockOptions(restitution=0.9), spread=only)
+    only = ParameterVariation(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
+    result = perturb(BLOCK, one_sine(3.0 * flip / (1.0 + above)), 2000, options=RockOptions(restitution=0.9), spread=only)
     # 2000 draws scatter by 0.0097 about a quarter; normal ones would leave 0.31 there, and 0.16 beyond the half width
-    assert found.probability == pytest.approx(share, abs=0.03 if 0.0 < share < 1.0 else 0.0)
+    assert result.probability == pytest.approx(share, abs=0.03 if 0.0 < share < 1.0 else 0.0)
 
 
 def test_perturb_states_what_its_interval_covers():
@@ -143,16 +145,16 @@ def test_perturb_states_what_its_interval_covers():
 def test_perturb_draws_unmeasured_edges_from_the_range_of_the_kind():
     """With nothing else changing, a stone that falls only when it is worn by more than half of that falls in half of the runs."""
     motion, stone = one_sine(2.8), of_kind(BLOCK, "gravestone")
-    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+    only = ParameterVariation(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
     share = next(
         x
         for x in np.linspace(0.0, 0.1, 401)
         if rock_verdict(BLOCK.with_wear(float(x)), motion, options=RockOptions(restitution=0.9)).overturned
     )
     assert 0.01 < share < 0.09
-    found = perturb(stone, motion, 400, options=RockOptions(restitution=0.9), spread=only)
-    low, high = found.probability_interval
-    assert low < 1.0 - share / 0.1 < high and found.ranges == stone.ranges
+    result = perturb(stone, motion, 400, options=RockOptions(restitution=0.9), spread=only)
+    low, high = result.probability_interval
+    assert low < 1.0 - share / 0.1 < high and result.ranges == stone.ranges
     exact = replace(only, inset=0.0)
     assert perturb(stone, motion, 5, options=RockOptions(restitution=0.9), spread=exact).overturned == 5 * (share < 0.05)
 
@@ -160,7 +162,7 @@ def test_perturb_draws_unmeasured_edges_from_the_range_of_the_kind():
 def test_perturb_varies_a_known_inset_by_a_share_of_itself():
     """Sharp edges stay sharp; an inset just beyond that at which the stone falls falls in half of the runs."""
     motion = one_sine(2.8)
-    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+    only = ParameterVariation(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
     assert perturb(BLOCK, motion, 5, options=RockOptions(restitution=0.9), spread=only).overturned == 0
     share = next(
         x
@@ -198,7 +200,7 @@ def test_resized_block_keeps_its_shape():
 def test_perturb_rejects_invalid_spreads(spread):
     """Shares lie in [0, 1), degrees in [0, 180]."""
     with pytest.raises(ParameterError, match="spread"):
-        Spread(**spread)
+        ParameterVariation(**spread)
 
 
 def test_perturb_rejects_zero_runs():

@@ -35,20 +35,20 @@ MOTION = motion_of(RECORD, "NS")
 STONE = Block(0.2424, 0.8)
 
 
-def opinions(found):
+def opinions(result):
     """Return the opinions of an agreement by model."""
-    return {opinion.model: opinion for opinion in found.opinions}
+    return {opinion.model: opinion for opinion in result.opinions}
 
 
 def test_models_of_gravestone_differ_by_factor_two():
     """A gravestone under El Centro falls by two of five models, whose factors lie a factor of 1.98 apart."""
-    found = compare_models(STONE, MOTION)
-    assert (found.falls, found.models, found.unanimous) == (2, 5, False)
-    assert list(opinions(found)) == [SHARP_BLOCK, WORN_BLOCK, GRAVESTONES, PULSE, ISHIYAMA]
-    assert [opinion.model for opinion in found.opinions if opinion.falls] == [GRAVESTONES, ISHIYAMA]
-    factors = [opinion.factor for opinion in found.opinions]
-    assert found.spread == pytest.approx(max(factors) / min(factors))
-    assert found.spread == pytest.approx(1.98, abs=0.01)
+    comparison = compare_models(STONE, MOTION)
+    assert (comparison.falls, comparison.models, comparison.unanimous) == (2, 5, False)
+    assert list(opinions(comparison)) == [SHARP_BLOCK, WORN_BLOCK, GRAVESTONES, PULSE, ISHIYAMA]
+    assert [opinion.model for opinion in comparison.opinions if opinion.falls] == [GRAVESTONES, ISHIYAMA]
+    factors = [opinion.factor for opinion in comparison.opinions]
+    assert comparison.spread == pytest.approx(max(factors) / min(factors))
+    assert comparison.spread == pytest.approx(1.98, abs=0.01)
 
 
 def test_closed_form_factor_is_threshold_over_peak():
@@ -60,48 +60,48 @@ def test_closed_form_factor_is_threshold_over_peak():
 
 def test_simulated_factor_is_first_overturning_factor():
     """At the factor the block falls, a little below it stands, and no factor that was looked at below it lets it fall."""
-    found = opinions(compare_models(STONE, MOTION))
+    comparison = opinions(compare_models(STONE, MOTION))
     for model, block in ((SHARP_BLOCK, STONE), (WORN_BLOCK, STONE.with_wear(DEFAULT_WEAR))):
-        factor = found[model].factor
+        factor = comparison[model].factor
         assert rock_verdict(block, MOTION, scale=factor).overturned
         assert not rock_verdict(block, MOTION, scale=factor * 0.999).overturned
-        assert found[model].falls == rock_verdict(block, MOTION).overturned
-    assert found[WORN_BLOCK].factor < found[SHARP_BLOCK].factor
+        assert comparison[model].falls == rock_verdict(block, MOTION).overturned
+    assert comparison[WORN_BLOCK].factor < comparison[SHARP_BLOCK].factor
 
 
 def test_given_inset_is_compared_with_sharp_edges():
     """A block that says how worn it is is compared with its own edges made sharp."""
-    found = opinions(compare_models(STONE.with_wear(0.2), MOTION))
-    assert found[SHARP_BLOCK] == opinions(compare_models(STONE, MOTION))[SHARP_BLOCK]
-    assert found[WORN_BLOCK].factor < opinions(compare_models(STONE, MOTION))[WORN_BLOCK].factor
+    comparison = opinions(compare_models(STONE.with_wear(0.2), MOTION))
+    assert comparison[SHARP_BLOCK] == opinions(compare_models(STONE, MOTION))[SHARP_BLOCK]
+    assert comparison[WORN_BLOCK].factor < opinions(compare_models(STONE, MOTION))[WORN_BLOCK].factor
 
 
 def test_gravestone_criterion_applies_to_gravestones_only():
     """A cabinet and a slab have four models; a stone of the criterion's width and proportions has the one made for it."""
     assert opinions(compare_models(STONE, MOTION))[GRAVESTONES].made_for_it
-    for other in (Block(0.8, 1.9), Block(0.25, 0.25), Block(0.25, 2.0)):
-        found = compare_models(other, MOTION)
-        assert GRAVESTONES not in opinions(found)
-        assert found.models == 4
+    for second in (Block(0.8, 1.9), Block(0.25, 0.25), Block(0.25, 2.0)):
+        comparison = compare_models(second, MOTION)
+        assert GRAVESTONES not in opinions(comparison)
+        assert comparison.models == 4
 
 
 def test_further_models_are_counted():
-    """What was asked elsewhere, such as a pile, has a voice, and a factor only if one is known."""
-    alone, more = compare_models(STONE, MOTION), compare_models(STONE, MOTION, extra_results=[ModelResult("pile", True, None)])
-    assert (more.falls, more.models, more.spread) == (alone.falls + 1, alone.models + 1, alone.spread)
+    """Results of further models, such as a pile, are counted; a factor only if one is known."""
+    single, extra = compare_models(STONE, MOTION), compare_models(STONE, MOTION, extra_results=[ModelResult("pile", True, None)])
+    assert (extra.falls, extra.models, extra.spread) == (single.falls + 1, single.models + 1, single.spread)
 
 
 def test_fixed_top_stone_is_not_compared():
-    """Where the top stone of a pile is fixed nobody is asked what it would do."""
+    """A pile whose top stone is fixed is not compared."""
     pile = load_pile("wagata")
-    held = replace(pile, fixed=(pile.names[-1],))
-    assert compare_pile_models(Response("stack", None, MOTION, held)) is None
+    holding = replace(pile, fixed=(pile.names[-1],))
+    assert compare_pile_models(Response("stack", None, MOTION, holding)) is None
 
 
 def test_zero_motion_overturns_in_no_model():
     """A motion that is zero throughout lets nothing fall, by nobody's account."""
-    found = compare_models(STONE, Motion.from_arrays(np.zeros(100), 0.01))
-    assert (found.falls, found.spread, found.unanimous) == (0, None, True)
+    comparison = compare_models(STONE, Motion.from_arrays(np.zeros(100), 0.01))
+    assert (comparison.falls, comparison.spread, comparison.unanimous) == (0, None, True)
 
 
 def test_cemetery_rates_differ_by_model():
@@ -109,11 +109,11 @@ def test_cemetery_rates_differ_by_model():
     cemetery = read_cemetery("aoyama.csv")
     motion = motion_of(read("synthetic_jma.csv"), "NS")
     weak = Motion(0.45 * motion.acceleration, motion.dt)
-    rates = {each.model: each.rate for each in rates_by_model(cemetery, 4.2, 1.2, weak)}
+    rates = {item.model: item.rate for item in rates_by_model(cemetery, 4.2, 1.2, weak)}
     assert list(rates) == [GRAVESTONES, PULSE, WORN_BLOCK, SHARP_BLOCK]
     assert rates[SHARP_BLOCK] < rates[WORN_BLOCK] < rates[GRAVESTONES]
-    assert [each.model for each in rates_by_model(cemetery, 4.2, 1.2)] == [GRAVESTONES, PULSE]
-    assert [each.model for each in rates_by_model(cemetery.with_dowels(), 4.2, 1.2, weak)] == [GRAVESTONES]
+    assert [item.model for item in rates_by_model(cemetery, 4.2, 1.2)] == [GRAVESTONES, PULSE]
+    assert [item.model for item in rates_by_model(cemetery.with_dowels(), 4.2, 1.2, weak)] == [GRAVESTONES]
 
 
 def test_closed_form_states_frequency_and_edges():
@@ -125,8 +125,8 @@ def test_closed_form_states_frequency_and_edges():
         assert worn[model].factor < sharp[model].factor
     assert sharp[PULSE].frequency_hz == pytest.approx(frequency)
     for stone, edges in ((STONE, "sharp"), (STONE.with_wear(0.1), "worn")):
-        told = agreement_line("NS", compare_models(stone, MOTION))
-        assert f"half-sine pulse of {frequency:.3g} Hz with {edges} edges (" in told
-        assert f"Ishiyama's limits of acceleration and velocity with {edges} edges (" in told
+        comparison = agreement_line("NS", compare_models(stone, MOTION))
+        assert f"half-sine pulse of {frequency:.3g} Hz with {edges} edges (" in comparison
+        assert f"Ishiyama's limits of acceleration and velocity with {edges} edges (" in comparison
     rates = rates_by_model(read_cemetery("aoyama.csv"), 4.2, 1.2)
     assert "(half-sine pulse of 1.2 Hz with worn edges)" in rates_line("NS", rates)

@@ -38,8 +38,8 @@ def test_overturning_rate_is_share_above_threshold():
 def test_threshold_ratio_separates_fallen_and_standing():
     """The threshold H/B of either criterion divides the stones that fall from those that stand."""
     for reinforced, fit in ((False, PLAIN), (True, DOWELLED)):
-        found = threshold_ratio(7.25, 2.75, reinforced=reinforced)
-        assert found == pytest.approx(float(overturning_ratio(7.25, 2.75, fit)), rel=1e-12)
+        result = threshold_ratio(7.25, 2.75, reinforced=reinforced)
+        assert result == pytest.approx(float(overturning_ratio(7.25, 2.75, fit)), rel=1e-12)
     rigid = threshold_ratio(7.25, 1.0, limits=rigid_limits)
     alike = Cemetery(tuple(Stone(rigid * factor) for factor in (0.999, 1.001)))
     assert overturned_stones(alike, 7.25, 1.0, limits=rigid_limits).tolist() == [False, True]

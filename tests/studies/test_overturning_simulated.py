@@ -16,7 +16,7 @@ from seisblock.readers import read
 from seisblock.records import motion_of
 from seisblock.records.process import scale
 from seisblock.studies.survey.overturning_rate import overturning_rate
-from seisblock.studies.survey.simulation import sao, simulated_curve, simulated_overturns, sine_motion
+from seisblock.studies.survey.simulation import simulated_curve, simulated_overturns, sine_motion, stone_block
 
 AOYAMA = read_cemetery("aoyama.csv")
 GRID = Cemetery(tuple(Stone(float(ratio)) for ratio in np.arange(1.25, 6.51, 0.05)))
@@ -34,7 +34,7 @@ def fitted_level(frequency: float, inset: EdgeWear) -> float:
 
 def test_inset_pivots_keep_mass_and_inertia():
     """Inset pivots change the arms and nothing else."""
-    plain, inset = sao(2.6, inset=SHARP_EDGES), sao(2.6)
+    plain, inset = stone_block(Stone(2.6), inset=SHARP_EDGES), stone_block(Stone(2.6))
     assert plain == Block(0.2424, 2.6 * 0.2424, name="sao")
     assert inset.total_mass == pytest.approx(Block(0.2424, 2.6 * 0.2424).total_mass)
     assert inset.gyration_squared == pytest.approx((0.2424**2 + (2.6 * 0.2424) ** 2) / 12)
@@ -55,13 +55,13 @@ def test_cemetery_stones_equal_single_stones():
     mixed = Cemetery((Stone(2.0), Stone(2.9, count=2), Stone(2.0), Stone(4.0, width=0.15)))
     falls = simulated_overturns(mixed, motion, scale=0.6)
     scaled = motion_of(scale(read("synthetic_jma.csv"), 0.6), "NS")
-    alone = [solve_rock(sao(r, w), scaled).outcome.overturned for r, w in ((2.0, 0.2424), (2.9, 0.2424), (4.0, 0.15))]
-    assert falls.tolist() == [alone[0], alone[1], alone[1], alone[0], alone[2]]
+    single = [solve_rock(stone_block(Stone(r, w)), scaled).outcome.overturned for r, w in ((2.0, 0.2424), (2.9, 0.2424), (4.0, 0.15))]
+    assert falls.tolist() == [single[0], single[1], single[1], single[0], single[2]]
 
 
 def test_simulated_rates_are_close_to_eq_9_at_low_frequency():
     """At 0.5 Hz and with the pivots of 5 x 5 contact points the simulated rates are within 0.05 of (9)."""
-    for point in simulated_curve(AOYAMA, [(sine_motion(1.0, 0.5), 0.5)], inset=EdgeWear(share=0.1)):
+    for point in simulated_curve(AOYAMA, [([sine_motion(1.0, 0.5)], 0.5)], inset=EdgeWear(share=0.1)):
         assert point.rate == pytest.approx(overturning_rate(AOYAMA, point.pga_m_s2, 0.5).rate, abs=0.05)
 
 
@@ -70,6 +70,6 @@ def test_simulated_rate_rejects_unsupported_stones():
     with pytest.raises(ParameterError, match="does not model dowels"):
         simulated_overturns(AOYAMA.with_dowels(), sine_motion(1.0, 1.0))
     with pytest.raises(ParameterError, match=r"inset of 0\.1212 m per side is too large"):
-        sao(2.0, inset=EdgeWear(share=0.5))
+        stone_block(Stone(2.0), inset=EdgeWear(share=0.5))
     with pytest.raises(ParameterError, match="the frequency of the sine must be positive"):
         sine_motion(1.0, 0.0)

@@ -1,4 +1,4 @@
-"""How sure the fate of a free-standing body is, and in which direction it is worst."""
+"""Probability of the outcome of a free-standing body, and its worst direction."""
 
 import numpy as np
 import pytest
@@ -13,9 +13,10 @@ from seisblock.models.respond.solve import solve_respond
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.references import REFERENCES
-from seisblock.studies.respond import probability
+from seisblock.studies import sampling
 from seisblock.studies.respond.azimuths import respond_directions
-from seisblock.studies.respond.probability import ParameterVariation, Probability, respond_probability
+from seisblock.studies.respond.probability import Probability, respond_probability
+from seisblock.studies.sampling import ParameterVariation
 
 PULSE = Motion.from_arrays(6.0 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.005)
 DEFAULT_VARIATION = ParameterVariation()
@@ -33,26 +34,26 @@ def test_respond_probability_without_variation_equals_outcome(width, height, mu)
     """With nothing varied the share is that of the single run, 0 or 1, and every quantile is its displacement."""
     block = Block(width, height)
     outcome = solve_respond(block, PULSE, mu=mu, settle_s=20.0).outcome
-    found = share(block, PULSE, mu=mu, versions=NOTHING_VARIES, runs=3)
-    assert found.overturned == float(outcome.overturned)
-    assert found.moved == float(outcome.overturned or abs(outcome.final_displacement_m) > 0.01)
+    result = share(block, PULSE, mu=mu, versions=NOTHING_VARIES, runs=3)
+    assert result.overturned == float(outcome.overturned)
+    assert result.moved == float(outcome.overturned or abs(outcome.final_displacement_m) > 0.01)
     if not outcome.overturned:
-        assert set(found.final_displacement_m.values()) == {outcome.final_displacement_m}
+        assert set(result.final_displacement_m.values()) == {outcome.final_displacement_m}
 
 
 def test_respond_samples_are_uniform_within_half_widths(monkeypatch):
     """Friction, restitution, amplitude and direction fill their ranges evenly and never leave them; normal ones would do neither."""
-    asked = []
+    calls = []
 
-    def overheard(settings, motion, **given):
+    def overheard(settings, motion, **arguments):
         bounce = settings.restitution + settings.rocking - 1.0
-        asked.extend(zip(settings.mu, bounce, given["gains"], strict=True))
-        return respond_many(settings, motion, **given)
+        calls.extend(zip(settings.mu, bounce, arguments["gains"], strict=True))
+        return respond_many(settings, motion, **arguments)
 
-    monkeypatch.setattr(probability, "respond_many", overheard)
+    monkeypatch.setattr(sampling, "respond_many", overheard)
     still = Motion(1e-6 * np.ones((3, 4)), 0.01)
     share(Block(0.24, 0.8), still, mu=0.5, runs=400)
-    mu, restitution, gains = (np.array(column) for column in zip(*asked, strict=True))
+    mu, restitution, gains = (np.array(column) for column in zip(*calls, strict=True))
     along, across, _ = gains.T
     changes = {
         "mu": (mu / 0.5 - 1.0) / 0.2,
@@ -87,8 +88,8 @@ def test_respond_samples_with_exact_wear_keep_it():
     """With a tolerance of nothing a worn body stays as worn as it is."""
     block = Block(0.24, 0.8).with_wear(0.2)
     sharp = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
-    own = solve_respond(block, PULSE, mu=0.6, settle_s=20.0).outcome
-    assert share(block, PULSE, mu=0.6, versions=sharp, runs=2).overturned == float(own.overturned)
+    result = solve_respond(block, PULSE, mu=0.6, settle_s=20.0).outcome
+    assert share(block, PULSE, mu=0.6, versions=sharp, runs=2).overturned == float(result.overturned)
 
 
 @pytest.mark.parametrize("width", [("size", 1.0), ("mu", -0.1), ("inset", 1.0), ("azimuth_deg", 200.0)])
@@ -108,23 +109,26 @@ def test_probability_interval_is_clopper_pearson():
     """Its ends are the probabilities at which so few, or so many, falls have 2.5 %."""
     from scipy.stats import binom
 
-    found = share(Block(0.24, 0.8), Motion.from_arrays(0.6 * PULSE.horizontal, PULSE.dt), mu=0.8, runs=60)
-    count = round(found.overturned * 60)
-    assert isinstance(found, Probability) and 0 < count < 60
-    assert binom.sf(count - 1, 60, found.interval[0]) == pytest.approx(0.025, rel=1e-6)
-    assert binom.cdf(count, 60, found.interval[1]) == pytest.approx(0.025, rel=1e-6)
+    result = share(Block(0.24, 0.8), Motion.from_arrays(0.6 * PULSE.horizontal, PULSE.dt), mu=0.8, runs=60)
+    count = round(result.overturned * 60)
+    assert isinstance(result, Probability) and 0 < count < 60
+    assert binom.sf(count - 1, 60, result.interval[0]) == pytest.approx(0.025, rel=1e-6)
+    assert binom.cdf(count, 60, result.interval[1]) == pytest.approx(0.025, rel=1e-6)
 
 
 def test_respond_azimuths_equal_single_runs():
-    """Each azimuth is what `--component` of that azimuth gives, and the worst comes first."""
+    """Each azimuth is the single run of the square base projected on it, and the worst comes first."""
     record = read("synthetic_jma.csv")
     block, options = Block(0.45, 1.8), {"mu": 0.3, "settle_s": 20.0}
-    found = respond_directions(block, record, RespondOptions(**options), step_deg=45.0)
-    assert {each.azimuth_deg for each in found} == {0.0, 45.0, 90.0, 135.0}
-    for each in found:
-        outcome = solve_respond(block, motion_of(record, f"{each.azimuth_deg:g}"), **options).outcome
-        assert each.overturned == outcome.overturned and each.overturned_towards == outcome.overturned_towards
-    assert [each.overturned for each in found] == sorted((each.overturned for each in found), reverse=True)
+    directions = respond_directions(block, record, RespondOptions(**options), step_deg=45.0)
+    assert {entry.azimuth_deg for entry in directions} == {0.0, 45.0, 90.0, 135.0}
+    for item in directions:
+        turn = np.radians(item.azimuth_deg)
+        projected = Block(0.45 * (abs(np.cos(turn)) + abs(np.sin(turn))), 1.8, 0.45, mass=1.0, centroid_inertia=(0.45**2 + 1.8**2) / 12)
+        outcome = solve_respond(projected, motion_of(record, f"{item.azimuth_deg:g}"), **options).outcome
+        assert item.overturned == outcome.overturned and item.overturned_towards == outcome.overturned_towards
+        assert item.max_displacement_m == pytest.approx(outcome.max_displacement_m, rel=1e-6) or outcome.overturned
+    assert [entry.overturned for entry in directions] == sorted((entry.overturned for entry in directions), reverse=True)
 
 
 def test_friction_table_entries_cite_a_source():

@@ -1,4 +1,4 @@
-"""How often it happens at a site: against quadrature, the closed form and tables as people keep them."""
+"""Annual frequency at a site: against quadrature, the closed form and usual tables."""
 
 import dataclasses
 import json
@@ -47,21 +47,21 @@ def quadrature(fragility, curve, low, high):
 def test_rate_of_power_law_has_closed_form(median, beta, power, rate):
     """rate(median) exp(k² beta²/2), wherever the levels of the table lie."""
     levels = np.array([0.03, 0.1, 0.11, 1.0, 4.0])
-    found = find_risk(Lognormal(median, beta), site(HazardCurve(levels, rate * levels**-power)))
-    assert found.annual_rate == pytest.approx(rate * median**-power * math.exp(0.5 * (power * beta) ** 2), rel=1e-9)
+    risk = find_risk(Lognormal(median, beta), site(HazardCurve(levels, rate * levels**-power)))
+    assert risk.annual_rate == pytest.approx(rate * median**-power * math.exp(0.5 * (power * beta) ** 2), rel=1e-9)
 
 
 def test_contributions_equal_quadrature():
     """Between two levels what quadrature finds there; the shares have the sum one, and the chance in 50 years follows."""
     fragility = Lognormal(0.6, 0.45)
-    found = find_risk(fragility, site())
-    for each in found.disaggregation[1:-1]:
-        assert each.annual_rate == pytest.approx(quadrature(fragility, BENT, each.im_from, each.im_to), rel=1e-6)
-    assert found.disaggregation[0].annual_rate == pytest.approx(quadrature(fragility, BENT, 1e-4, LEVELS[0]), rel=1e-6)
-    assert found.disaggregation[-1].annual_rate == pytest.approx(quadrature(fragility, BENT, LEVELS[-1], 1e4), rel=1e-6)
-    assert sum(each.share for each in found.disaggregation) == pytest.approx(1.0)
-    assert found.return_period_years == pytest.approx(1.0 / found.annual_rate)
-    assert found.probability.value == pytest.approx(1.0 - (1.0 - found.annual_rate / 1e4) ** (50.0 * 1e4), rel=1e-4)
+    risk = find_risk(fragility, site())
+    for level in risk.disaggregation[1:-1]:
+        assert level.annual_rate == pytest.approx(quadrature(fragility, BENT, level.im_from, level.im_to), rel=1e-6)
+    assert risk.disaggregation[0].annual_rate == pytest.approx(quadrature(fragility, BENT, 1e-4, LEVELS[0]), rel=1e-6)
+    assert risk.disaggregation[-1].annual_rate == pytest.approx(quadrature(fragility, BENT, LEVELS[-1], 1e4), rel=1e-6)
+    assert sum(item.share for item in risk.disaggregation) == pytest.approx(1.0)
+    assert risk.return_period_years == pytest.approx(1.0 / risk.annual_rate)
+    assert risk.probability.value == pytest.approx(1.0 - (1.0 - risk.annual_rate / 1e4) ** (50.0 * 1e4), rel=1e-4)
 
 
 def test_rate_of_step_fragility_is_hazard_at_median():
@@ -71,33 +71,33 @@ def test_rate_of_step_fragility_is_hazard_at_median():
 
 def test_rate_far_above_table_is_finite_and_positive():
     """A fragility 40 standard deviations above the table neither overflows nor turns negative."""
-    found = find_risk(Lognormal(1e4, 0.1), site())
-    assert 0.0 < found.annual_rate < 1e-20 and found.beyond_levels_share > 0.999
-    assert all(each.annual_rate >= 0.0 for each in found.disaggregation)
-    assert "far from all levels" in found.notes[0]
+    risk = find_risk(Lognormal(1e4, 0.1), site())
+    assert 0.0 < risk.annual_rate < 1e-20 and risk.beyond_levels_share > 0.999
+    assert all(level.annual_rate >= 0.0 for level in risk.disaggregation)
+    assert "far from all levels" in risk.notes[0]
 
 
 def test_branches_are_reweighted_by_survival():
     """The mean of the branches; P(standing) = exp(-T rate) weighs them anew (Bayes)."""
     half = dataclasses.replace(BENT, rates=np.asarray(BENT.rates) / 2, name="half", weight=0.3)
-    whole = dataclasses.replace(BENT, name="whole", weight=0.7)
-    alone = find_risk(Lognormal(0.4, 0.3), site()).annual_rate
-    found = find_risk(Lognormal(0.4, 0.3), site(whole, half), stood_years=2000.0)
-    assert found.annual_rate == pytest.approx(0.85 * alone)
-    likelihood = np.exp(-2000.0 * alone * np.array([1.0, 0.5]))
+    full = dataclasses.replace(BENT, name="whole", weight=0.7)
+    single = find_risk(Lognormal(0.4, 0.3), site()).annual_rate
+    risk = find_risk(Lognormal(0.4, 0.3), site(full, half), stood_years=2000.0)
+    assert risk.annual_rate == pytest.approx(0.85 * single)
+    likelihood = np.exp(-2000.0 * single * np.array([1.0, 0.5]))
     after = likelihood * [0.7, 0.3] / (likelihood @ [0.7, 0.3])
-    assert [each.standing for each in found.branches] == pytest.approx(likelihood)
-    assert [each.weight_after for each in found.branches] == pytest.approx(after)
-    assert found.annual_rate_after == pytest.approx(after @ [alone, alone / 2])
+    assert [branch.standing for branch in risk.branches] == pytest.approx(likelihood)
+    assert [branch.weight_after for branch in risk.branches] == pytest.approx(after)
+    assert risk.annual_rate_after == pytest.approx(after @ [single, single / 2])
 
 
 def test_branches_with_different_levels_are_merged():
     """Stretches of the union of the levels; the sum is that of each alone."""
-    other = HazardCurve([0.02, 0.9, 5.0], [0.1, 1e-3, 1e-6], "other", 0.5)
-    found = find_risk(Lognormal(0.5, 0.5), site(dataclasses.replace(BENT, weight=0.5), other))
-    each = [find_risk(Lognormal(0.5, 0.5), site(dataclasses.replace(curve, weight=1.0))).annual_rate for curve in (BENT, other)]
-    assert found.annual_rate == pytest.approx(np.mean(each), rel=1e-12)
-    assert len(found.disaggregation) == np.union1d(LEVELS, other.levels).size + 1
+    second = HazardCurve([0.02, 0.9, 5.0], [0.1, 1e-3, 1e-6], "other", 0.5)
+    result = find_risk(Lognormal(0.5, 0.5), site(dataclasses.replace(BENT, weight=0.5), second))
+    risk = [find_risk(Lognormal(0.5, 0.5), site(dataclasses.replace(curve, weight=1.0))).annual_rate for curve in (BENT, second)]
+    assert result.annual_rate == pytest.approx(np.mean(risk), rel=1e-12)
+    assert len(result.disaggregation) == np.union1d(LEVELS, second.levels).size + 1
 
 
 TABLES = {
@@ -115,15 +115,15 @@ TABLES = {
 def test_hazard_table_accepts_headings_units_and_order(text, tmp_path):
     """Units in headings, rates or probabilities, Japanese headings, any order; levels never or surely exceeded are left out, and said."""
     (tmp_path / "h.csv").write_text("# from somewhere\n" + text, encoding="utf-8")
-    found = read_hazard(tmp_path / "h.csv")
+    hazard = read_hazard(tmp_path / "h.csv")
     im, levels, rates = TABLES[text]
-    assert found.im == im
-    assert np.asarray(found.branches[0].levels) == pytest.approx(levels)
-    assert np.asarray(found.branches[0].rates) == pytest.approx(rates)
-    assert bool(found.notes) == (text.count("\n") > 3)
+    assert hazard.im == im
+    assert np.asarray(hazard.branches[0].levels) == pytest.approx(levels)
+    assert np.asarray(hazard.branches[0].rates) == pytest.approx(rates)
+    assert bool(hazard.notes) == (text.count("\n") > 3)
 
 
-WRONG = {
+INVALID = {
     "pgv_m_s,annual_rate\n0.2,0.01\n": "at least two levels",
     "pgv_m_s,annual_rate\n": "the table is empty",
     "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.02\n": "must not increase with intensity: this one rises from 0.2 to 0.6",
@@ -149,20 +149,41 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("text", WRONG)
+@pytest.mark.parametrize("text", INVALID)
 def test_hazard_table_rejects_invalid_values(text, tmp_path):
-    """What is wrong, and where; never a curve drawn through nothing."""
+    """Invalid values are rejected with their line."""
     (tmp_path / "h.csv").write_text(text, encoding="utf-8")
     with pytest.raises(HazardError) as caught:
         read_hazard(tmp_path / "h.csv")
-    assert WRONG[text] in str(caught.value) and str(caught.value).startswith("h.csv: ")
+    assert INVALID[text] in str(caught.value) and str(caught.value).startswith("h.csv: ")
 
 
 def test_hazard_table_with_several_measures_requires_choice(tmp_path):
     """A table of two measures says which there are; asked for one, the other is named as passed over."""
     (tmp_path / "h.csv").write_text("pgv_m_s,pga_g,annual_rate\n0.2,0.1,0.01\n0.6,0.4,0.001\n", encoding="utf-8")
-    found = read_hazard(tmp_path / "h.csv", im="pga")
-    assert found.im == "pga" and "pgv_m_s" in str(found.notes[0])
+    hazard = read_hazard(tmp_path / "h.csv", im="pga")
+    assert hazard.im == "pga" and "pgv_m_s" in str(hazard.notes[0])
+
+
+@pytest.mark.parametrize(("heading", "im"), [("rotd50(0.5)_g", "rotd50:0.5"), ("RotD100 0.5s (gal)", "rotd100:0.5"), ("cav_m_s", "cav")])
+def test_hazard_of_record_measures_is_read(heading, im, tmp_path):
+    """Both spectra of all directions, and CAV."""
+    (tmp_path / "h.csv").write_text(f"{heading},annual_rate\n0.1,0.01\n0.4,0.001\n", encoding="utf-8")
+    assert read_hazard(tmp_path / "h.csv").im == read_hazard(tmp_path / "h.csv", im=im).im == im
+
+
+def test_other_definition_of_direction_is_noted(tmp_path):
+    """Sa of one component against RotD50 of the same period; another period is refused, the same measure preferred."""
+    (tmp_path / "h.csv").write_text("sa(0.5)_g,annual_rate\n0.1,0.01\n0.4,0.001\n", encoding="utf-8")
+    hazard = read_hazard(tmp_path / "h.csv", im="rotd50:0.5")
+    assert hazard.im == "sa=0.5" and "another definition of the horizontal motion" in str(hazard.notes[0])
+    curves = read_fragility(write_fragility(tmp_path, im="rotd50:0.5", unit="m/s^2"))
+    assert check_measure(curves, hazard) == curves
+    assert read_hazard(tmp_path / "h.csv", im="sa:0.5").notes == ()
+    with pytest.raises(HazardError, match=r"levels are of sa=0\.5, but rotd50:1 is required"):
+        read_hazard(tmp_path / "h.csv", im="rotd50:1")
+    (tmp_path / "h.csv").write_text("sa(0.5)_g,rotd50(0.5)_g,annual_rate\n0.1,0.2,0.01\n0.4,0.5,0.001\n", encoding="utf-8")
+    assert read_hazard(tmp_path / "h.csv", im="rotd50:0.5").im == "rotd50:0.5"
 
 
 def test_hazard_rejects_folders_and_binary_files(tmp_path):
@@ -197,9 +218,9 @@ def write_fragility(tmp_path, **changed):
 
 def test_fragility_document_round_trips(tmp_path):
     """Its body, limit and curve; what is in another measure than the hazard is refused."""
-    (found,) = read_fragility(write_fragility(tmp_path))
-    assert (found.body, found.limit, found.curve) == ("stone", "overturn", Lognormal(0.5, 0.3))
-    assert check_measure((found,), site()) == (found,)
+    (curves,) = read_fragility(write_fragility(tmp_path))
+    assert (curves.body, curves.limit, curves.curve) == ("stone", "overturn", Lognormal(0.5, 0.3))
+    assert check_measure((curves,), site()) == (curves,)
     with pytest.raises(ParameterError, match=r"the fragility is in sa=0\.5 and the hazard in pgv"):
         check_measure(read_fragility(write_fragility(tmp_path, im="sa=0.5", unit="m/s^2")), site())
 

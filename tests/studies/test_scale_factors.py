@@ -25,41 +25,41 @@ def test_scale_factor_of_rectangular_pulse_has_closed_form():
     mu, g, observed = 0.2, 9.80665, 1.0
     # the last sample's fall from a to zero takes one interval more: its impulse is that of half an interval
     a, T = 4.0, 1.0
-    found = scale_factors(slide_displacement(mu, PULSE), observed, PULSE, limit=2.0).scale_factors
+    factors = scale_factors(slide_displacement(mu, PULSE), observed, PULSE, limit=2.0).scale_factors
     root = (mu * g + np.sqrt((mu * g) ** 2 + 8.0 * mu * g * observed / T**2)) / (2.0 * a)
-    assert len(found) == 1
-    assert found[0].scale == pytest.approx(root, rel=0.01)
-    assert found[0].displacement_m == pytest.approx(observed, rel=1e-8)
-    assert found[0].pga_m_s2 == pytest.approx(4.0 * found[0].scale)
+    assert len(factors) == 1
+    assert factors[0].scale == pytest.approx(root, rel=0.01)
+    assert factors[0].displacement_m == pytest.approx(observed, rel=1e-8)
+    assert factors[0].pga_m_s2 == pytest.approx(4.0 * factors[0].scale)
 
 
 @pytest.mark.parametrize("largest", [False, True])
 def test_scale_factors_recover_factor_of_slip(largest):
-    """What a scaled record does is found at that factor, for the residual and for the largest slip."""
+    """The displacement of a scaled record is found at that factor, residual and maximum."""
     outcome = solve_slide(0.3, scale_motion(MOTION, 0.8)).outcome
     observed = outcome.max_slip_m if largest else abs(outcome.residual_slip_m)
-    found = scale_factors(slide_displacement(0.3, MOTION, largest=largest), observed, MOTION, limit=2.0, steps=100)
-    assert any(f.scale == pytest.approx(0.8, abs=1e-6) for f in found.scale_factors)
-    for each in found.scale_factors:
-        again = solve_slide(0.3, scale_motion(MOTION, each.scale)).outcome
-        assert (again.max_slip_m if largest else abs(again.residual_slip_m)) == pytest.approx(observed, rel=1e-6)
+    factors = scale_factors(slide_displacement(0.3, MOTION, largest=largest), observed, MOTION, limit=2.0, steps=100)
+    assert any(f.scale == pytest.approx(0.8, abs=1e-6) for f in factors.scale_factors)
+    for factor in factors.scale_factors:
+        repeat = solve_slide(0.3, scale_motion(MOTION, factor.scale)).outcome
+        assert (repeat.max_slip_m if largest else abs(repeat.residual_slip_m)) == pytest.approx(observed, rel=1e-6)
 
 
 @pytest.mark.parametrize("first", [False, True])
 def test_scale_factors_recover_factor_of_jump(first):
     """The displacement of the Chozu-sha under the record as it is has 1 among its factors."""
-    chosen = two_layer_choice({}, default="chozusha")
-    chains = solve_jump(chosen.block, MOTION, contact=chosen.contact, first=first).outcome.chains
+    selection = two_layer_choice({}, default="chozusha")
+    chains = solve_jump(selection.block, MOTION, contact=selection.contact, first=first).outcome.chains
     observed = abs(sum(chain.total_displacement_m or 0.0 for chain in chains))
-    found = scale_factors(
-        jump_displacement(chosen.block, MOTION, options=JumpOptions(contact=chosen.contact, first=first)),
+    factors = scale_factors(
+        jump_displacement(selection.block, MOTION, options=JumpOptions(contact=selection.contact, first=first)),
         observed,
         MOTION,
         limit=1.5,
         steps=60,
     )
-    assert any(f.scale == pytest.approx(1.0, abs=1e-6) and not f.leaps for f in found.scale_factors)
-    assert found.displacement_at_1_m == pytest.approx(observed)
+    assert any(f.scale == pytest.approx(1.0, abs=1e-6) and not f.leaps for f in factors.scale_factors)
+    assert factors.displacement_at_1_m == pytest.approx(observed)
 
 
 def test_scale_factors_find_solutions_and_discontinuities():
@@ -68,16 +68,16 @@ def test_scale_factors_find_solutions_and_discontinuities():
     def displacement(s: float) -> float:
         return s * (2.0 - s) if s < 2.0 else 1.0
 
-    found = scale_factors(displacement, 0.75, PULSE).scale_factors
-    assert [(round(f.scale, 8), f.leaps) for f in found] == [(0.5, False), (1.5, False), (2.0, True)]
+    factors = scale_factors(displacement, 0.75, PULSE).scale_factors
+    assert [(round(f.scale, 8), f.leaps) for f in factors] == [(0.5, False), (1.5, False), (2.0, True)]
 
 
 def test_unreachable_displacement_has_no_factor():
     """The largest displacement of the scan is told instead."""
-    found = scale_factors(slide_displacement(0.2, PULSE), 1e3, PULSE)
-    assert found.scale_factors == ()
-    assert found.largest_at_scale == 3.0
-    assert found.largest_displacement_m == pytest.approx(solve_slide(0.2, scale_motion(PULSE, 3.0)).outcome.residual_slip_m * -1.0)
+    factors = scale_factors(slide_displacement(0.2, PULSE), 1e3, PULSE)
+    assert factors.scale_factors == ()
+    assert factors.largest_at_scale == 3.0
+    assert factors.largest_displacement_m == pytest.approx(solve_slide(0.2, scale_motion(PULSE, 3.0)).outcome.residual_slip_m * -1.0)
 
 
 def test_scale_factors_reject_invalid_input():

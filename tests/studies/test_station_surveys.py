@@ -21,7 +21,7 @@ def station(code, north, east, intensity):
 
 
 NEAREST = (("A", 35.0, 139.0, 6.0), ("B", 35.1, 139.0, 5.0), ("C", 35.0, 139.2, 4.0), ("D", 36.0, 139.0, 1.0))
-AROUND = Stations((*(station(*each) for each in NEAREST), StationReport("e.csv", pga_m_s2=9.0, jma_intensity=7.0)), None)
+AROUND = Stations((*(station(*item) for item in NEAREST), StationReport("e.csv", pga_m_s2=9.0, jma_intensity=7.0)), None)
 """Four stations, and one that is nowhere."""
 
 
@@ -29,10 +29,10 @@ def test_survey_is_compared_with_three_nearest_stations():
     """The estimate is that of `infer`; the stations' intensities are weighted by the inverse of their distance."""
     (answer,) = compare_surveys([SurveyedPlace("temple", 35.02, 139.0, 100, 35)], AROUND, AOYAMA)
     assert answer.estimate == estimate_shaking(counted_survey(AOYAMA, 35, 100))
-    assert [each.station for each in answer.neighbours] == ["A", "B", "C"]
-    far = [great_circle_km((35.02, 139.0), place) for place in ((35.0, 139.0), (35.1, 139.0), (35.0, 139.2))]
-    assert [each.distance_km for each in answer.neighbours] == pytest.approx(far)
-    weights = [1 / distance for distance in far]
+    assert [neighbour.station for neighbour in answer.neighbours] == ["A", "B", "C"]
+    distant = [great_circle_km((35.02, 139.0), place) for place in ((35.0, 139.0), (35.1, 139.0), (35.0, 139.2))]
+    assert [neighbour.distance_km for neighbour in answer.neighbours] == pytest.approx(distant)
+    weights = [1 / distance for distance in distant]
     expected = (6.0 * weights[0] + 5.0 * weights[1] + 4.0 * weights[2]) / sum(weights)
     assert answer.expected_intensity == pytest.approx(expected)
     assert answer.residual == pytest.approx(answer.estimate.jma_intensity - expected)
@@ -42,21 +42,21 @@ def test_survey_without_falls_has_bound_and_no_residual():
     """So it is without any station with an intensity, and where all are further away than shaking is alike."""
     (none,) = compare_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 0)], AROUND, AOYAMA)
     assert none.residual is None and none.expected_intensity is not None
-    (alone,) = compare_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 20)], Stations((), None), AOYAMA)
-    (far,) = compare_surveys([SurveyedPlace("temple", -20.0, -179.9, 40, 20)], AROUND, AOYAMA)
-    for answer in (alone, far):
+    (single,) = compare_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 20)], Stations((), None), AOYAMA)
+    (distant,) = compare_surveys([SurveyedPlace("temple", -20.0, -179.9, 40, 20)], AROUND, AOYAMA)
+    for answer in (single, distant):
         assert (answer.neighbours, answer.expected_intensity, answer.residual) == ((), None, None)
 
 
 def test_contradicting_pairs_are_named():
     """A place and a station, and two places, within ten kilometres; not further apart, nor where intervals nearly meet."""
-    told = (("fell", 35.0, 139.01, 99), ("stands", 35.01, 139.0, 1), ("far", 35.5, 139.0, 99))
-    places = [SurveyedPlace(name, north, east, 100, fallen) for name, north, east, fallen in told]
+    values = (("fell", 35.0, 139.01, 99), ("stands", 35.01, 139.0, 1), ("far", 35.5, 139.0, 99))
+    places = [SurveyedPlace(name, north, east, 100, fallen) for name, north, east, fallen in values]
     answers = compare_surveys(places, Stations((station("A", 35.0, 139.0, 6.7),), None), AOYAMA)
     (low, _), (_, high) = (answer.estimate.jma_intensity_interval for answer in answers[:2])
     assert 6.7 > low > high
-    told = contradictions(answers)
-    assert [text.split(" (")[0] for text in told] == ["stands and station A", "fell and stands"]
+    values = contradictions(answers)
+    assert [text.split(" (")[0] for text in values] == ["stands and station A", "fell and stands"]
     agreeing = compare_surveys(places[:1], Stations((station("A", 35.0, 139.0, float(low)),), None), AOYAMA)
     assert contradictions(agreeing) == []
 

@@ -7,14 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.table import PAPER_WIDTH
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
-from seisblock.core.units import SUN
-
-PAPER_WIDTH = 8 * SUN
-"""Default width of an upper stone (sao), m: that of the fitted criterion ([Furukawa2009]_ table 1)."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,6 +35,10 @@ class Stone(DisplayMixin):
         Number of such stones, positive.
     line : int or None
         Line of the source file.
+    name : str
+        Name or number of the stone.
+    inset : EdgeWear or None
+        Measured edge wear; None: the prior of gravestones, or that of a call.
 
     Raises
     ------
@@ -51,6 +53,8 @@ class Stone(DisplayMixin):
     azimuth_deg: float | None = None
     count: int = 1
     line: int | None = None
+    name: str = ""
+    inset: EdgeWear | None = None
 
     def __post_init__(self) -> None:
         checks.positive("height over width of a gravestone", self.height_over_width, error=BodyError)
@@ -134,6 +138,10 @@ class Cemetery(DisplayMixin):
     def rows(self) -> Cemetery:
         """Return the cemetery with each row as one stone."""
         return replace(self, stones=tuple(replace(stone, count=1) for stone in self.stones))
+
+    def without_outcomes(self) -> Cemetery:
+        """Return the cemetery with all outcomes unknown."""
+        return replace(self, stones=tuple(replace(stone, fallen=None) for stone in self.stones))
 
     def select(self, predicate: Callable[[Stone], bool]) -> Cemetery:
         """Return the cemetery of the stones that satisfy a predicate."""

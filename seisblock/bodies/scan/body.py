@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -45,6 +45,8 @@ class ScannedBody(DisplayMixin):
         Distance of the worn edges from each side of the base; a share refers to the smallest width of the base.
     facing : float, degrees
         Azimuth of +x, clockwise from north.
+    hull : triples of floats, m
+        Vertices of the convex hull, x, y, and z above the ground; empty where only the base is known.
 
     Raises
     ------
@@ -68,6 +70,7 @@ class ScannedBody(DisplayMixin):
     base: tuple[Pair, ...]
     inset: EdgeWear = SHARP_EDGES
     facing: float = EAST
+    hull: tuple[Triple, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         checks.positive("{name}: {what}", self.mass, "kg", error=BodyError, name=self.name, what=lazy_gettext("mass"))

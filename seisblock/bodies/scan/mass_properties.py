@@ -59,7 +59,7 @@ def mass_properties(mesh: Mesh) -> MassProperties:
     >>> round(mass_properties(read_mesh("boulder.ply")).volume, 3)
     0.117
     """
-    edges = _edges(mesh)
+    edges = np.concatenate([mesh.faces[:, [first, (first + 1) % 3]] for first in range(3)])
     _check_closed(mesh.source, edges)
     middle = 0.5 * (mesh.vertices.min(axis=0) + mesh.vertices.max(axis=0))
     volume, first_moment, second_moment = 0.0, np.zeros(3), np.zeros((3, 3))
@@ -86,11 +86,6 @@ def mass_properties(mesh: Mesh) -> MassProperties:
         np.trace(second_central_moment) * np.eye(3) - second_central_moment,
         _count_pieces(edges, len(mesh.vertices)),
     )
-
-
-def _edges(mesh: Mesh) -> IntArray:
-    """Return the directed edges of all triangles, (3 k, 2)."""
-    return np.concatenate([mesh.faces[:, [first, (first + 1) % 3]] for first in range(3)])
 
 
 def _check_closed(source: str, edges: IntArray) -> None:

@@ -132,6 +132,10 @@ def scan_body(
     properties = mass_properties(mesh)
     mass = density * properties.volume
 
+    from scipy.spatial import ConvexHull
+
+    hull = mesh.vertices[np.sort(ConvexHull(mesh.vertices).vertices)]
+
     def body_at_tolerance(tolerance_m: float, wear: EdgeWear) -> tuple[ScannedBody, float, int]:
         """Return the body for a tolerance, its levelling rotation and its number of support points."""
         pose = find_resting_pose(mesh.vertices, properties.centre, tolerance=tolerance_m, source=mesh.source)
@@ -149,6 +153,7 @@ def scan_body(
             tuple(tuple(corner) for corner in pose.base.tolist()),  # type: ignore[misc]
             wear,
             facing,
+            tuple((x, y, z - pose.ground_height) for x, y, z in (hull @ pose.rotation.T).tolist()),
         )
         return body, pose.tilt, pose.touching
 

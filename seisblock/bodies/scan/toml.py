@@ -28,7 +28,7 @@ from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_BASE_CORNERS, check_limit
 
-KEYS = ("name", "mass", "height", "centre", "inertia", "base", "inset", "facing", "scan")
+KEYS = ("name", "mass", "height", "centre", "inertia", "base", "inset", "facing", "hull", "scan")
 OPTIONAL_KEYS = ("mu", "mu_kinetic", "restitution")
 """Optional keys, as of a block."""
 
@@ -50,6 +50,8 @@ def scan_from_table(table: Mapping[str, Any]) -> ScannedBody:
     inset = table.get("inset", 0.0)
     base = _parse_rows(table, "base", 2)
     check_limit(N_("corners of the base"), len(base), MAX_BASE_CORNERS, source=source, error=BodyError)
+    hull = _parse_rows(table, "hull", 3) if "hull" in table else ()
+    check_limit(N_("vertices of the hull"), len(hull), MAX_BASE_CORNERS, source=source, error=BodyError)
     return ScannedBody(
         get_text(table, "name", source),
         get_mass(table, "mass"),
@@ -61,6 +63,7 @@ def scan_from_table(table: Mapping[str, Any]) -> ScannedBody:
         if inset
         else SHARP_EDGES,
         EAST if facing is None else facing,
+        hull,  # type: ignore[arg-type]
     )
 
 
@@ -70,7 +73,8 @@ def load_scan(name: str | Path) -> ScannedBody:
     Parameters
     ----------
     name : str or Path
-        ``kind = "scan"`` with ``mass``, ``height``, ``centre``, ``inertia`` and ``base`` in kg and m, ``inset`` and ``facing``.
+        ``kind = "scan"`` with ``mass``, ``height``, ``centre``, ``inertia`` and ``base`` in kg and m, ``inset``, ``facing`` and, for
+        three dimensions, ``hull``.
 
     Raises
     ------
@@ -107,6 +111,7 @@ def scan_to_toml(scan: Scan) -> str:
         f"facing = {body.facing!r}  # azimuth of +x",
         f'inset = "{body.inset_m!r} m"',
         f"base = {_toml_rows(body.base)}",
+        f"hull = {_toml_rows(body.hull)}",
         "",
         "[scan]",
         f"source = {_toml_string(Path(scan.source).name)}",

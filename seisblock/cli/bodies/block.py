@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.factory import body_from_table, table_restitution
+from seisblock.bodies.factory import block_for_motion, body_from_table, table_restitution
 from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.toml import read_body_toml
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.output.describe_wear import describe_edges
 from seisblock.records import Motion
-from seisblock.report.describe_wear import describe_edges
 
 
 @dataclass(frozen=True)
@@ -37,14 +37,16 @@ class BodyChoice:
         return self.body.block_toward(azimuth)
 
     def block_for_motion(self, motion: Motion) -> Block:
-        """Return the block for a motion; for a scan, the block of the motion's azimuth."""
-        return self.body.block_for_motion(motion) if isinstance(self.body, ScannedBody) else self.body
+        """Return the block for a motion: its base is projected on a requested azimuth."""
+        block = block_for_motion(self.body, motion)
+        assert isinstance(block, Block)
+        return block
 
     def block_key(self, block: Block) -> dict[str, Any]:
-        """Return the JSON entry of the block of a scan, empty for other bodies."""
-        from seisblock.report.json.bodies import block_entry
+        """Return the JSON entry of the block of a direction, empty where it is the body itself."""
+        from seisblock.output.json.bodies import block_entry
 
-        return {"block": block_entry(block)} if isinstance(self.body, ScannedBody) else {}
+        return {} if block is self.body else {"block": block_entry(block)}
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,12 @@ from seisblock.bodies.friction import SURFACES, surface
 from seisblock.bodies.toml import read_body_toml
 from seisblock.cli import shell_completion
 from seisblock.cli.bodies.block import BodyChoice, choose_block
-from seisblock.cli.bodies.options import block_options
+from seisblock.cli.bodies.options import block_list_options, block_options
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import option
+from seisblock.cli.types import MUS
 from seisblock.core.errors import BodyError
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.models.respond.options import RespondOptions
 
 
@@ -36,7 +37,7 @@ def surface_option(function: Callable[..., Any]) -> Callable[..., Any]:
         section="Body",
         metavar="A/B",
         shell_complete=shell_completion.complete_surfaces,
-        help=f"Surface pair that gives the friction coefficient, instead of --mu: {', '.join(SURFACES)}.",
+        help=f"Pair of materials, instead of --mu: {', '.join(SURFACES)}.",
     )(function)
 
 
@@ -44,6 +45,14 @@ def free_standing_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options of a free-standing body to a command, for :func:`choose_free_standing`."""
     function = solver_options(RespondOptions, "restitution", "rocking_restitution", "tenon")(function)
     return block_options(solver_options(RespondOptions, "mu", "mu_kinetic")(surface_option(function)))
+
+
+def free_standing_list_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the options of a free-standing body with lists of width, height and friction."""
+    function = solver_options(RespondOptions, "restitution", "rocking_restitution", "tenon")(function)
+    text = N_("Static friction coefficient; number, list or range. [default: value of the body; else required]")
+    mu = option("--mu", type=MUS, section="Body", help=text)
+    return block_list_options(mu(solver_options(RespondOptions, "mu_kinetic")(surface_option(function))))
 
 
 def choose_free_standing(params: Mapping[str, Any]) -> FreeStandingChoice:

@@ -6,15 +6,30 @@ from seisblock.bodies.kinds import KINDS
 from seisblock.cli import shell_completion
 from seisblock.cli.command import Decorator, add_options, option
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import INSET, LENGTH, MASS
+from seisblock.cli.types import INSET, LENGTH, LENGTHS, MASS
 
 _SIZES = (
     option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit (24cm, 8sun)."),
     option("--height", type=LENGTH, section="Body", help="Height H, m or with a unit."),
 )
 
+_SIZE_LISTS = (
+    option("--width", type=LENGTHS, section="Body", help="Width B along the motion, m or with a unit (24cm, 8sun); number, list or range."),
+    option(
+        "--height",
+        type=LENGTHS,
+        section="Body",
+        help="Height H, m or with a unit; number, list or range. Lists of --width, --height and --mu are combined.",
+    ),
+)
+
 _OPTIONAL_SIZES = (
-    option("--depth", type=LENGTH, section="Body", help="Width across the motion, m or with a unit; affects only the mass."),
+    option(
+        "--depth",
+        type=LENGTH,
+        section="Body",
+        help="Width across the motion, m or with a unit; affects mass and azimuths only.",
+    ),
     option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit; affects the motion only with --inertia."),
     option("--centroid-height", type=LENGTH, section="Body", help="Height of the centre of gravity, m. [default: half the height]"),
     option(
@@ -43,8 +58,7 @@ _OPTIONAL_SIZES = (
         "--kind",
         type=SuggestingChoice(KINDS),
         section="Body",
-        help="Kind of a body given by its sizes: gravestones have edges worn by 0 to 0.1 of the width, median 0.05; others are sharp. "
-        "[default: block]",
+        help="Kind of a body given by its sizes; gravestones have edges worn by 0 to 0.1 of the width, others sharp ones. [default: block]",
     ),
     option(
         "--block",
@@ -84,6 +98,9 @@ def side_option(text: str) -> Decorator:
 
 block_options = add_options(*_SIZES, *_OPTIONAL_SIZES)
 """Options of one rigid block, for ``choose_block``."""
+
+block_list_options = add_options(*_SIZE_LISTS, *_OPTIONAL_SIZES)
+"""The same with lists of width and height."""
 
 
 azimuth_option = option(

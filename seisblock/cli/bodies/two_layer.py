@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.toml import read_body_toml
-from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact_from_table, two_layer_from_table
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock, base_from_table, contact_from_table, two_layer_from_table
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
 
@@ -16,11 +16,12 @@ _CONTACT = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
 
 @dataclass(frozen=True)
 class TwoLayerChoice:
-    """Two-layer block with its contact and a one-line description."""
+    """Two-layer block with its contact, a one-line description, and drop and tenon of its file, m, as far as it has them."""
 
     block: TwoLayerBlock
     contact: Contact
     description: str
+    base: Mapping[str, float]
 
 
 def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoice:
@@ -46,6 +47,7 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
             "--block and sizes ({given}) exclude each other: give only one of them", given=[f"--{name}" for name in given_sizes]
         )
     preset: Mapping[str, float] = {}
+    base: Mapping[str, float] = {}
     if given_sizes:
         block = _from_sizes(params, sizes)
         origin = lazy_gettext("sizes as given")
@@ -53,6 +55,7 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
         name = params.get("block") or default
         table = read_body_toml(name)
         block, preset = two_layer_from_table(table, params.get("side") or "short"), contact_from_table(table)
+        base = base_from_table(table)
         origin = lazy_gettext("from {file}", file=name) if params.get("block") else lazy_gettext("from {file} (default)", file=name)
     values = {**preset, **{key: params[key] for key in _CONTACT if params.get(key) is not None}}
     if "mu" not in values:
@@ -65,7 +68,7 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
         x=layer_contact.restitution_x,
         y=layer_contact.restitution_y,
     )
-    return TwoLayerChoice(block, layer_contact, lazy_gettext("{origin}; {values}", origin=origin, values=values_text))
+    return TwoLayerChoice(block, layer_contact, lazy_gettext("{origin}; {values}", origin=origin, values=values_text), base)
 
 
 def _from_sizes(params: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:

@@ -1,4 +1,4 @@
-"""Checkpoint file of a batch run: the rows of each finished record, one checksummed JSON line per record."""
+"""Checkpoint file of a long run: the rows of each finished part (record, sine), one checksummed JSON line per part."""
 
 from __future__ import annotations
 
@@ -10,11 +10,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from seisblock.core.errors import OutputError, os_error_text
+from seisblock.core.errors import OutputError, SeisblockError, os_error_text
+from seisblock.core.io.files import check_no_device
 from seisblock.core.io.locking import file_lock
 
+MAX_HEADER_BYTES = 2**16
+"""Maximum length of the header line, bytes: a file of another kind need not have lines."""
+
 Key = tuple[str, str]
-"""Path of a record and digest of its content."""
+"""Path of a record and digest of its content, or two other strings that identify a part of the run."""
 
 
 def checkpoint_path(target: Path) -> Path:
@@ -41,13 +45,13 @@ def lock_checkpoint(path: Path) -> Iterator[None]:
 
 @dataclass(eq=False)
 class Checkpoint:
-    """Rows on disk, one line per record, after a header line that identifies the run.
+    """Rows on disk, one line per finished part, after a header line that identifies the run.
 
     Parameters
     ----------
     path : Path
     places : dict of key to int
-        Byte offset of the line of each finished record.
+        Byte offset of the line of each finished part.
     damaged : int
         Number of lines skipped because of a wrong checksum.
     """
@@ -55,6 +59,17 @@ class Checkpoint:
     path: Path
     places: dict[Key, int] = field(default_factory=dict)
     damaged: int = 0
+
+    @classmethod
+    def open(cls, path: Path, purpose: Mapping[str, str]) -> Checkpoint:
+        """Resume a checkpoint if the file exists, else begin one.
+
+        Raises
+        ------
+        OutputError
+            As of :meth:`begin` and :meth:`resume`.
+        """
+        return cls.resume(path, purpose) if path.exists() else cls.begin(path, purpose)
 
     @classmethod
     def begin(cls, path: Path, purpose: Mapping[str, str]) -> Checkpoint:
@@ -84,10 +99,13 @@ class Checkpoint:
             If the file cannot be read, or its header is damaged or belongs to another run.
         """
         journal = cls(path)
+        check_no_device(path, str(path), OutputError)
         with _os_errors(path), path.open("r+b") as stream:
-            header = _decode_line(stream.readline())
+            header = _decode_line(stream.readline(MAX_HEADER_BYTES))
             if header is None:
-                raise OutputError("{path}: the first line is damaged and the run cannot be resumed; start a new run", path=path)
+                raise OutputError(
+                    "{path}: the first line is no header of an interrupted run, or damaged; start a new run or give another file", path=path
+                )
             if header != dict(purpose):
                 raise OutputError(
                     "{path} belongs to a run with other bodies, options or version: start a new run or repeat the original call",
@@ -108,26 +126,27 @@ class Checkpoint:
         return journal
 
     def append(self, key: Key, rows: Sequence[Mapping[str, Any]]) -> None:
-        """Append the rows of a finished record.
+        """Append the rows of a finished part.
 
         Raises
         ------
         OutputError
-            If the disk is full; the rows of earlier records are kept.
+            If the disk is full; the rows of earlier parts are kept.
         """
         line = _encode_line({"path": key[0], "stamp": key[1], "rows": [dict(row) for row in rows]})
-        with _os_errors(self.path), self.path.open("ab") as stream:
+        with _os_errors(self.path), self.path.open("ab", buffering=0) as stream:
             offset = stream.tell()
             try:
-                stream.write(line)
-                stream.flush()
+                # a full disk accepts part of the data before it raises
+                while line:
+                    line = line[stream.write(line) :]
             except OSError:
                 stream.truncate(offset)
                 raise
         self.places[key] = offset
 
     def rows(self, key: Key) -> list[dict[str, Any]]:
-        """Return the rows of a finished record."""
+        """Return the rows of a finished part."""
         with _os_errors(self.path), self.path.open("rb") as stream:
             stream.seek(self.places[key])
             line = _decode_line(stream.readline())
@@ -166,5 +185,8 @@ def _os_errors(path: Path) -> Iterator[None]:
     """Convert OSError to OutputError."""
     try:
         yield
+    except SeisblockError:
+        # OutputError is an OSError, too
+        raise
     except OSError as error:
         raise OutputError("cannot write {target}: {reason}{kept}", target=path, reason=os_error_text(error), kept="") from error

@@ -1,4 +1,4 @@
-"""Reading of CSV tables from spreadsheets: encodings, separators, comments, headings and units."""
+"""Cells of tables from spreadsheets: encodings, separators, comments, headings and units."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ UNIT_PATTERN = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
 
 TRUE_WORDS = frozenset({"1", "1.0", "yes", "y", "true", "t", "○", "〇", "◯", "有", "有り", "あり", "はい"})
 FALSE_WORDS = frozenset({"0", "0.0", "no", "n", "false", "f", "×", "✕", "無", "無し", "なし", "いいえ"})
+UNKNOWN_WORDS = frozenset({"-", "−", "–", "?", "unknown", "不明"})
 """Values of a yes/no cell, case-insensitive."""
 
 MAX_LISTED_ROWS = 5
@@ -32,7 +33,11 @@ def read_text(path: Path, name: str) -> str:
     BodyError
         If the file cannot be read or is not a text.
     """
-    data = read_bytes(path, name, BodyError)
+    return decode_text(read_bytes(path, name, BodyError), name)
+
+
+def decode_text(data: bytes, name: str) -> str:
+    """Return the text of the content of a file, see :func:`read_text`."""
     if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
         raise BodyError("{name} is not a text table: give a CSV file with one row per line", name=name)
     for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp932"):
@@ -49,9 +54,9 @@ def data_lines(text: str) -> list[tuple[int, str]]:
     return [(number, line) for number, line in lines if line.strip(" \t,;") and not line.lstrip().startswith("#")]
 
 
-def find_separator(header: str) -> str:
-    """Return the separator of a table: comma, tab or semicolon."""
-    return next((mark for mark in ",\t;" if mark in header), ",")
+def find_separator(header: str, default: str = ",") -> str:
+    """Return the separator of a table: comma, tab or semicolon; `default` for a line without any."""
+    return next((mark for mark in ",\t;" if mark in header), default)
 
 
 def split_cells(line: str, separator: str) -> list[str]:
@@ -60,7 +65,12 @@ def split_cells(line: str, separator: str) -> list[str]:
         cells = next(csv.reader([line], delimiter=separator), [])
     except csv.Error as error:
         raise BodyError("the line cannot be read as a table row: {error}", error=error) from error
-    return [unicodedata.normalize("NFKC", cell).strip() for cell in cells]
+    return [normalize_cell(cell) for cell in cells]
+
+
+def normalize_cell(text: str) -> str:
+    """Return the text of a cell in NFKC, on one line."""
+    return " ".join(unicodedata.normalize("NFKC", text).split())
 
 
 def normalize_heading(text: str) -> str:
@@ -86,6 +96,11 @@ def parse_heading(cell: str, meanings: Mapping[str, str]) -> tuple[str, str]:
         head, _, tail = label.rpartition("_")
         if tail in (*LENGTH_UNITS, *MASS_UNITS) and normalize_heading(head) in meanings:
             key, unit = normalize_heading(head), tail
+    # 幅cm
+    if not unit and key not in meanings:
+        for tail in LENGTH_UNITS:
+            if key.endswith(tail) and not key[: -len(tail)].isascii() and key[: -len(tail)] in meanings:
+                key, unit = key[: -len(tail)], tail
     return meanings.get(key, ""), unit
 
 

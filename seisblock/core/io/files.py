@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import stat
 from pathlib import Path
 
@@ -11,6 +12,20 @@ from seisblock.core.limits import MIB, check_file_size
 
 MAX_NAME_LENGTH = 200
 """Maximum length of a file name in messages."""
+
+
+def check_no_device(path: Path, name: str, error: type[SeisblockError]) -> os.stat_result:
+    """Return the status of a path.
+
+    Raises
+    ------
+    SeisblockError
+        Of that class, if the path is a character or block device, which may have no end.
+    """
+    info = path.stat()
+    if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
+        raise error("{name} is a device: give a regular file", name=name)
+    return info
 
 
 def read_bytes(path: Path, name: str, error: type[InputError]) -> bytes:
@@ -40,10 +55,7 @@ def read_bytes(path: Path, name: str, error: type[InputError]) -> bytes:
     pieces: list[bytes] = []
     size = 0
     try:
-        info = path.stat()
-        if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
-            raise error("{name} is a device: give a regular file", name=name)
-        check_file_size(info.st_size, name, error)
+        check_file_size(check_no_device(path, name, error).st_size, name, error)
         mark_read(path)
         with path.open("rb") as stream:
             while piece := stream.read(MIB):

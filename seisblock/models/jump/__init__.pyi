@@ -1,5 +1,4 @@
-from .batch import jump_many
-from .batch_results import JumpBatchResult
+from .batch import JumpBatchResult, jump_many
 from .chain import Chain
 from .solve import JumpOutcome, solve_jump
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.two_layer import TwoLayerBlock
-from seisblock.core.i18n import N_
+from seisblock.core.i18n import N_, Term
 from seisblock.core.results import Event, Phase
 from seisblock.core.typing import FloatArray
 from seisblock.dynamics import GuardEvent, Instant, Trajectory
@@ -18,16 +18,33 @@ from seisblock.models.jump import rocking
 from seisblock.models.jump.impact import Launch, centroid_rise, foot_rise
 from seisblock.records import Motion
 
-NO_JUMP = N_("rocked without jumping")
-JUMPED = N_("jumped")
-OVERTURNED_ROCKING = N_("overturned while rocking")
-OVERTURNED_LANDED = N_("overturned after landing")
-ENDED_ROCKING = N_("still rocking a minute after the record")
-ENDED_FLYING = N_("still in flight a minute after the record")
-ENDED_LANDED = N_("still moving a minute after the record")
 
-REST, ROCKING, FLIGHT, LANDED = N_("rest"), N_("rocking"), N_("flight"), N_("rocking-sliding")
-"""Names of the phases."""
+class ChainOutcome(Term):
+    """Outcomes of a chain of motion, and of a run."""
+
+    DID_NOT_ROCK = N_("did not rock")
+    NO_JUMP = N_("rocked without jumping")
+    JUMPED = N_("jumped")
+    OVERTURNED_ROCKING = N_("overturned while rocking")
+    OVERTURNED_LANDED = N_("overturned after landing")
+    STILL_ROCKING = N_("still rocking a minute after the record")
+    STILL_FLYING = N_("still in flight a minute after the record")
+    STILL_MOVING = N_("still moving a minute after the record")
+    IN_MORTISES = N_("lifted within the mortises")
+
+
+COMPLETE = (ChainOutcome.NO_JUMP, ChainOutcome.JUMPED, ChainOutcome.IN_MORTISES)
+"""Outcomes of a chain that ended upright, after which another may begin."""
+
+
+class JumpPhase(Term):
+    """Names of the phases."""
+
+    REST = N_("rest")
+    ROCKING = N_("rocking")
+    FLIGHT = N_("flight")
+    LANDED = N_("rocking-sliding")
+
 
 CHUNK_SIZE = 2**12
 """Samples per chunk in the search for the end of the time above the threshold."""
@@ -57,6 +74,7 @@ class Chain:
     max_rise_m : float
         Largest rise of the centroid in flight above its height at rest.
     jump_displacement_m, rock_slide_displacement_m, total_displacement_m : float
+        The total is zero where tenons stay in their mortises; the parts are those of a block without tenons.
     time_above_threshold_s : float
         Time from the onset of rocking during which the ground acceleration exceeds the rocking threshold.
     foot_rise_m : float
@@ -112,6 +130,8 @@ class ChainPath:
         Velocities after the impact.
     flight_path : Trajectory or None
         From the impact to the end, if the block jumps.
+    held : bool
+        True if the tenons stay in their mortises: the flight is that of a block without tenons, but nothing moves away.
     """
 
     motion: Motion
@@ -123,6 +143,7 @@ class ChainPath:
     rocking_path: Trajectory
     launch: Launch | None
     flight_path: Trajectory | None
+    held: bool = False
 
     @property
     def onset_s(self) -> float:
@@ -172,8 +193,10 @@ def summarise_chain(path: ChainPath) -> Chain:
             "impact_velocity_rad_s": abs(float(path.rocking_path.final[rocking.OMEGA])),
         }
     if path.flight_path is None:
-        outcome = {rocking.IMPACT: NO_JUMP, rocking.OVERTURNED: OVERTURNED_ROCKING}.get(path.rocking_path.final_mode, ENDED_ROCKING)
-        if outcome == NO_JUMP:
+        outcome = {rocking.IMPACT: ChainOutcome.NO_JUMP, rocking.OVERTURNED: ChainOutcome.OVERTURNED_ROCKING}.get(
+            path.rocking_path.final_mode, ChainOutcome.STILL_ROCKING
+        )
+        if outcome == ChainOutcome.NO_JUMP:
             entries["total_displacement_m"] = 0.0
         if path.is_complete:
             entries["end_s"] = impact
@@ -181,11 +204,13 @@ def summarise_chain(path: ChainPath) -> Chain:
     return Chain(_flight_outcome(path), **entries, **_flight_results(path))
 
 
-def _flight_outcome(path: ChainPath) -> str:
+def _flight_outcome(path: ChainPath) -> ChainOutcome:
     """Return the outcome of a chain with a jump."""
     assert path.flight_path is not None
-    outcome = ENDED_FLYING if path.flight_path.final_mode == flying.FLIGHT else ENDED_LANDED
-    return {flying.END: JUMPED, flying.OVERTURNED: OVERTURNED_LANDED}.get(path.flight_path.final_mode, outcome)
+    if path.held and path.flight_path.final_mode == flying.END:
+        return ChainOutcome.IN_MORTISES
+    outcome = ChainOutcome.STILL_FLYING if path.flight_path.final_mode == flying.FLIGHT else ChainOutcome.STILL_MOVING
+    return {flying.END: ChainOutcome.JUMPED, flying.OVERTURNED: ChainOutcome.OVERTURNED_LANDED}.get(path.flight_path.final_mode, outcome)
 
 
 def _flight_results(path: ChainPath) -> dict[str, Any]:
@@ -214,11 +239,11 @@ def _flight_results(path: ChainPath) -> dict[str, Any]:
     if path.is_complete:
         end = path.motion.start_s + flight.end_time
         x, _ = flying.centroid(path.block, path.drop, np.array([flight.events[-1].source]), flight.final[np.newaxis])
-        total = path.sign * float(x[0])
+        total = 0.0 if path.held else path.sign * float(x[0])
         entries |= {
             "end_s": end,
             "rock_slide_duration_s": end - landing,
-            "rock_slide_displacement_m": total - jump_displacement,
+            "rock_slide_displacement_m": path.sign * float(x[0]) - jump_displacement,
             "total_displacement_m": total,
         }
         level = next((c for c in flight.events if c.source != flying.FLIGHT and c.guard == flying.TOUCH), None)
@@ -250,7 +275,7 @@ def phases_and_events(path: ChainPath) -> tuple[tuple[Phase, ...], tuple[Event, 
     tilt = -path.sign
     onset, impact = path.onset_s, path.impact_s
     rest, final_tilt = np.zeros(1), tilt * path.rocking_path.final[:1]
-    phases = [Phase(ROCKING, onset, impact)]
+    phases = [Phase(JumpPhase.ROCKING, onset, impact)]
     events = [Event("rocking starts", onset, rest, rest)]
     if path.rocking_path.final_mode < 0:
         events.append(Event("impact" if path.has_impact else "overturned", impact, final_tilt, final_tilt))
@@ -258,9 +283,9 @@ def phases_and_events(path: ChainPath) -> tuple[tuple[Phase, ...], tuple[Event, 
         end = path.motion.start_s + path.flight_path.end_time
         first_landing = path.first_landing
         landing = path.motion.start_s + first_landing.time if first_landing else end
-        phases.append(Phase(FLIGHT, impact, landing))
+        phases.append(Phase(JumpPhase.FLIGHT, impact, landing))
         if first_landing is not None:
-            phases.append(Phase(LANDED, landing, end))
+            phases.append(Phase(JumpPhase.LANDED, landing, end))
             events.append(Event("landing", landing, tilt * first_landing.before[:1], tilt * first_landing.after[:1]))
         if path.is_complete:
             final = tilt * path.flight_path.final[:1]
@@ -282,6 +307,7 @@ def chain_curves(path: ChainPath) -> tuple[FloatArray, FloatArray, FloatArray, F
         # the terminal row has no corner: use the mode of the row before, its state is the same
         modes = np.where(modes < 0, np.roll(modes, 1), modes)
         xs, rises = flying.centroid(block, path.drop, modes, states)
+        xs = xs * (not path.held)
         time, theta = np.concatenate([time, times + t0]), np.concatenate([theta, states[:, flying.THETA]])
         x, rise = np.concatenate([x, xs]), np.concatenate([rise, rises])
     return time, -path.sign * theta, path.sign * x, rise

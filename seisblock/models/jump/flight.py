@@ -28,7 +28,6 @@ from seisblock.dynamics.series import product, quotient, sine_cosine
 from seisblock.models.jump.landing import land_flat_by_friction, record_landing, take_off, touch_down, touch_down_by_friction
 from seisblock.models.jump.modes import (
     ALPHA,
-    BY_FRICTION,
     CENTROID_INERTIA,
     COS,
     DROP,
@@ -42,6 +41,7 @@ from seisblock.models.jump.modes import (
     FRICTION,
     FRICTION_BACKWARD,
     FRICTION_NEEDED,
+    FRICTION_RULE,
     GRAVITY,
     HALF_WIDTH,
     HEIGHT,
@@ -56,9 +56,11 @@ from seisblock.models.jump.modes import (
     NORMAL,
     OMEGA,
     OVERTURNED,
+    PRINTED_RULE,
     PSI,
     RADIUS,
     RIGHT,
+    RULE,
     SIDE,
     SIN,
     SINK,
@@ -162,9 +164,14 @@ def flight_series(mode, y, f, p, order, c, g):
     c[TAU1, 0] = -side * y[OMEGA]
     c[X, 0], c[VX, 0], c[Y, 0], c[VY, 0] = y[X], y[VX], y[Y], y[VY]
     corner_inertia = p[CENTROID_INERTIA] + p[MASS] * r * r
+    is_printed = p[RULE] == PRINTED_RULE
+    # the tables of the paper were integrated with half of the accelerations of tilt and slip
+    rate = 0.5 if is_printed else 1.0
+    # eqs. (12a), (12c) have the wrong sign of z''
+    shake_sign = -1.0 if is_printed and not slides else 1.0
     for k in range(order + 1):
         # the left corner is the mirror image: ground motion and velocities along x change their signs
-        shake = side * f[0, k] if k < 2 else 0.0
+        shake = shake_sign * side * f[0, k] if k < 2 else 0.0
         c[SPEED2, k] = product(c[TAU1], c[TAU1], k)
         # g - R s tau'^2
         c[SINK, k] = -r * product(c[SIN], c[SPEED2], k)
@@ -182,7 +189,7 @@ def flight_series(mode, y, f, p, order, c, g):
             c[TAU2, k] = r * pull / p[CENTROID_INERTIA]
         else:
             # eq. (12a) as corrected, and N of eq. (12b)
-            shaking_moment = side * (f[0, 0] * c[SIN, k] + (f[0, 1] * c[SIN, k - 1] if k > 0 else 0.0))
+            shaking_moment = shake_sign * side * (f[0, 0] * c[SIN, k] + (f[0, 1] * c[SIN, k - 1] if k > 0 else 0.0))
             c[TAU2, k] = -p[MASS] * r * (p[GRAVITY] * c[COS, k] + shaking_moment) / corner_inertia
             c[NORMAL, k] = p[MASS] * (c[SINK, k] + r * product(c[COS], c[TAU2], k))
         # tangential force per unit mass needed for a sticking foot; the deficit is the acceleration of the foot
@@ -202,11 +209,11 @@ def flight_series(mode, y, f, p, order, c, g):
         if k == order:
             break
         c[THETA, k + 1] = c[OMEGA, k] / (k + 1)
-        c[OMEGA, k + 1] = -side * c[TAU2, k] / (k + 1)
-        c[TAU1, k + 1] = c[TAU2, k] / (k + 1)
+        c[OMEGA, k + 1] = -side * rate * c[TAU2, k] / (k + 1)
+        c[TAU1, k + 1] = rate * c[TAU2, k] / (k + 1)
         c[PSI, k + 1] = c[TAU1, k] / (k + 1)
         c[X, k + 1] = c[VX, k] / (k + 1)
-        c[VX, k + 1] = foot / (k + 1)
+        c[VX, k + 1] = rate * foot / (k + 1)
         c[Y, k + 1] = c[VY, k + 1] = 0.0
         sine_cosine(c[PSI], c[SIN], c[COS], k + 1)
     g[TOPPLE, 0] += 0.5 * np.pi
@@ -246,9 +253,10 @@ def _stick_or_slip_mode(corner, y, f, p, mu, stick_kind):
     s = np.sin(psi)
     c = np.cos(psi)
     tilting = -side * y[OMEGA]
-    turning = -p[MASS] * r * (p[GRAVITY] * c + side * f[0, 0] * s) / (p[CENTROID_INERTIA] + p[MASS] * r * r)
+    shake = -side * f[0, 0] if p[RULE] == PRINTED_RULE else side * f[0, 0]
+    turning = -p[MASS] * r * (p[GRAVITY] * c + shake * s) / (p[CENTROID_INERTIA] + p[MASS] * r * r)
     normal = p[GRAVITY] - r * s * tilting**2 + r * c * turning
-    need = side * f[0, 0] + r * s * turning + r * c * tilting**2
+    need = shake + r * s * turning + r * c * tilting**2
     # eq. (14), H and N per unit mass
     if abs(need) <= mu * normal:
         return contact_mode(corner, stick_kind)
@@ -261,17 +269,17 @@ def flight_reset(mode, guard, y, f, p):
     """Return the mode after a landing, a stop or restart of slip, a lift-off, or the end of the chain."""
     if mode == FLIGHT:
         flying_x, flying_y, flying_spin = y[VX], y[VY], y[OMEGA]
-        if p[BY_FRICTION] == 0.0:
+        if p[RULE] != FRICTION_RULE:
             touch_down(guard, y, p)
         else:
             touch_down_by_friction(guard, y, p)
         record_landing(guard, flying_x, flying_y, flying_spin, y, p)
-        if p[BY_FRICTION] != 0.0 and y[VX] != 0.0:
+        if p[RULE] == FRICTION_RULE and y[VX] != 0.0:
             return _current_slip_mode(guard, y, p)
         return _stick_or_slip_mode(guard, y, f, p, p[MU], STICK)
     corner = contact_corner(mode)
     if guard == TOUCH:
-        if p[BY_FRICTION] == 0.0:
+        if p[RULE] != FRICTION_RULE:
             y[THETA] = 0.0
             return END
         land_flat_by_friction(y, p)

@@ -12,9 +12,6 @@ from seisblock.core.typing import FloatArray
 
 Number: TypeAlias = "float | FloatArray"
 
-SPIN_RULES = ("momentum", "printed", "ratio=Q")
-"""Rules for the spin after the impact, see :func:`spin_ratio`."""
-
 
 @dataclass(frozen=True)
 class Launch:
@@ -49,7 +46,8 @@ def spin_ratio(block: TwoLayerBlock, rule: str, restitution_x: float, restitutio
         ``momentum``: angular momentum about the centroid of the velocity field of [Sugimoto2017]_ eq. (6),
         (e_x Ixx - e_y Iyy)/I_G, which is [Sugimoto2017]_ eq. (7a) with its misprints corrected;
         ``printed``: [Sugimoto2017]_ eq. (7a) as printed, with the missing depth W supplied (differs: y_G instead of h_2 in its first
-        brace, and mixed signs); ``ratio=Q``: the number Q, for calibration against the paper's tables.
+        brace, and mixed signs); ``tables``: its first brace as printed with e_x m_1 h_1^2/12 as the second, inferred from the tables
+        of the paper (hypothesis, see :mod:`seisblock.validation.sugimoto`); ``ratio=Q``: the number Q, for calibration against them.
     restitution_x, restitution_y : float
         Ratios of velocities, horizontal and vertical.
 
@@ -67,7 +65,11 @@ def spin_ratio(block: TwoLayerBlock, rule: str, restitution_x: float, restitutio
     if rule == "momentum":
         return (restitution_x * block.height_moment - restitution_y * block.width_moment) / block.centroid_inertia
     if rule == "printed":
-        return -_printed_ratio(block, restitution_x, restitution_y)
+        first, second = _printed_braces(block)
+        return (restitution_x * second - restitution_y * first) / block.centroid_inertia
+    if rule == "tables":
+        upper_inertia = block.upper_mass * block.upper_height**2 / 12
+        return (restitution_y * _printed_braces(block)[0] - restitution_x * upper_inertia) / block.centroid_inertia
     if rule.startswith("ratio="):
         try:
             ratio = float(rule.removeprefix("ratio="))
@@ -75,18 +77,18 @@ def spin_ratio(block: TwoLayerBlock, rule: str, restitution_x: float, restitutio
             ratio = math.nan
         if math.isfinite(ratio):
             return ratio
-    raise ParameterError("`spin` must be momentum, printed or ratio=NUMBER, found {rule!r}", rule=rule)
+    raise ParameterError("`spin` must be momentum, printed, tables or ratio=NUMBER, found {rule!r}", rule=rule)
 
 
-def _printed_ratio(block: TwoLayerBlock, restitution_x: float, restitution_y: float) -> float:
-    """Return the factor on theta'_1 of [Sugimoto2017]_ eq. (7a) as printed, multiplied by the missing depth."""
+def _printed_braces(block: TwoLayerBlock) -> tuple[float, float]:
+    """Return both braces of [Sugimoto2017]_ eq. (7a) as printed with their factors and the missing depth, kg m^2."""
     b, h, h2, y = block.width, block.height, block.lower_height, block.centroid_height
     area = block.width * block.depth
     rho1 = block.upper_mass / (area * block.upper_height)
     rho2 = block.lower_mass / (area * h2)
-    vertical = b * restitution_y * ((h - y) * rho1 + y * rho2) * (2 * b - 3 * b / 2)
-    horizontal = restitution_x * (rho1 * (2 * h**3 - 2 * h2**3 - 3 * h**2 * y + 3 * h2**2 * y) + rho2 * h2**2 * (2 * h2 - 3 * y))
-    return b / (6 * block.centroid_inertia) * (vertical - horizontal) * block.depth
+    first = b * ((h - y) * rho1 + y * rho2) * (2 * b - 3 * b / 2)
+    second = rho1 * (2 * h**3 - 2 * h2**3 - 3 * h**2 * y + 3 * h2**2 * y) + rho2 * h2**2 * (2 * h2 - 3 * y)
+    return first * b * block.depth / 6, second * b * block.depth / 6
 
 
 def launch(block: TwoLayerBlock, omega: float, ratio: float, restitution_x: float, restitution_y: float) -> Launch:

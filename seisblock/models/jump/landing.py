@@ -7,6 +7,8 @@ Rules
     stops sticks or reverses, and the impulse ends when the corner's downward velocity is zero. Sliding continues with the remaining slip
     velocity ([WangMason1992]_). When the tilt returns to zero the base lands plastically on both corners with the same friction and slides
     to rest ([Moreau1988]_; the paper's model ends there).
+    ``printed``: ``paper`` with z'' of the opposite sign in [Sugimoto2017]_ eqs. (12a), (12c), as printed, and half of the accelerations of
+    tilt and slip, which give the durations of its tables 1 and 2. For comparison with them only.
 """
 
 from __future__ import annotations

@@ -9,6 +9,7 @@ import numpy as np
 from seisblock._jit import kernel, types
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core.typing import FloatArray, IntArray
+from seisblock.models.jump.options import LANDINGS
 
 THETA, OMEGA, X, VX, Y, VY = range(6)
 SIDE, FRICTION_NEEDED, ENERGY_BEFORE, ENERGY_AFTER = range(6, 10)
@@ -17,8 +18,10 @@ LEFT, RIGHT = 0, 1
 FLIGHT = 0
 STICK, HOLD, SLIP_BACKWARD, SLIP_FORWARD, FLAT_BACKWARD, FLAT_FORWARD = range(6)
 JAMMED, OVERTURNED, END = range(-3, 0)
-ALPHA, RADIUS, HALF_WIDTH, HEIGHT, MASS, CENTROID_INERTIA, GRAVITY, MU, MU_KINETIC, DROP, DT, BY_FRICTION = range(12)
+ALPHA, RADIUS, HALF_WIDTH, HEIGHT, MASS, CENTROID_INERTIA, GRAVITY, MU, MU_KINETIC, DROP, DT, RULE = range(12)
 TOUCH, TOPPLE, LIFT, FRICTION, FRICTION_BACKWARD = range(5)
+PAPER_RULE, FRICTION_RULE, PRINTED_RULE = range(3)
+"""Codes of the landing rules, the indices of :data:`seisblock.models.jump.options.LANDINGS`."""
 
 _t = types()
 
@@ -58,7 +61,7 @@ def flight_parameters(
             mu_kinetic,
             drop,
             dt,
-            float(rule == "friction"),
+            float(LANDINGS.index(rule)),
         ]
     )
 

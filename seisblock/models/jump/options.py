@@ -12,7 +12,7 @@ from seisblock.core.typing import TimeWindow
 from seisblock.core.units import STANDARD_GRAVITY
 
 DIRECTIONS = ("+", "-", "both")
-LANDINGS = ("paper", "friction")
+LANDINGS = ("paper", "friction", "printed")
 """Rules of the landing impulse, see :mod:`seisblock.models.jump.landing`."""
 
 
@@ -25,8 +25,21 @@ class JumpOptions(SolverOptions):
     drop: float = field(
         default=0.0,
         metadata=option(
-            N_("Height of the floor above the landing ground, m or with a unit. [default: 0]"),
+            N_("Height of the floor above the landing ground, m or with a unit. [default: value of the body, else 0]"),
             "--drop",
+            unit="m",
+            interval="[0, inf)",
+            section="Body",
+        ),
+    )
+    tenon: float = field(
+        default=0.0,
+        metadata=option(
+            N_(
+                "Length of the tenons, m or with a unit: the block moves away only where both feet rise higher in flight. "
+                "[default: value of the body, else 0]"
+            ),
+            "--tenon",
             unit="m",
             interval="[0, inf)",
             section="Body",
@@ -35,9 +48,12 @@ class JumpOptions(SolverOptions):
     spin: str = field(
         default="momentum",
         metadata=option(
-            N_("Angular velocity after the impact: conserved angular momentum, eq. (7a) as printed, or theta'2/theta'1 = Q."),
+            N_(
+                "Angular velocity after the impact: conserved angular momentum, eq. (7a) as printed, its first brace as printed with a "
+                "second one inferred from the tables of the paper, or theta'2/theta'1 = Q."
+            ),
             "--spin",
-            metavar="momentum|printed|ratio=Q",
+            metavar="momentum|printed|tables|ratio=Q",
         ),
     )
     direction: str = field(
@@ -48,8 +64,8 @@ class JumpOptions(SolverOptions):
         default="paper",
         metadata=option(
             N_(
-                "Friction at the landing of the foot: unlimited, as in the paper (paper), or Coulomb friction, so that the foot may "
-                "slip (friction)."
+                "Landing of the foot: unlimited friction, as in the paper (paper); Coulomb friction, so that the foot may slip "
+                "(friction); or paper with the equations as printed and as its tables were integrated (printed)."
             ),
             "--landing",
             choices=LANDINGS,

@@ -6,31 +6,28 @@ import functools
 import math
 import operator
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError, SolverError
-from seisblock.core.i18n import N_
 from seisblock.core.options import keywords_of
 from seisblock.core.results import Response
 from seisblock.core.status import STOPPED
 from seisblock.dynamics import Instant, integrate
 from seisblock.models.jump import modes as flying
 from seisblock.models.jump import rocking
-from seisblock.models.jump.chain import JUMPED, NO_JUMP, Chain, ChainPath, summarise_chain
-from seisblock.models.jump.describe import all_phases_and_events, chain_warnings, final_displacement, jump_histories, split_segments
+from seisblock.models.jump.chain import COMPLETE, Chain, ChainOutcome, ChainPath, summarise_chain
 from seisblock.models.jump.flight import FLIGHT_MODEL
 from seisblock.models.jump.free_response import continue_after_record
-from seisblock.models.jump.impact import launch, spin_ratio
+from seisblock.models.jump.impact import foot_rise, launch, spin_ratio
 from seisblock.models.jump.options import DIRECTIONS, LANDINGS, JumpOptions
+from seisblock.models.jump.segments import all_phases_and_events, chain_warnings, final_displacement, jump_histories, split_segments
 from seisblock.records import Motion
 from seisblock.records._validation import validate_inputs
 from seisblock.references import papers
-
-DID_NOT_ROCK = N_("did not rock")
 
 
 @dataclass(frozen=True, repr=False)
@@ -47,7 +44,7 @@ class JumpOutcome(DisplayMixin):
         Sum over the chains, signed.
     final_displacement_m : float
         Residual displacement of the centroid; equal to the total unless the block overturned.
-    landing : "paper" or "friction"
+    landing : "paper", "friction" or "printed"
         Landing rule.
     friction_needed_at_landing : float or None, 1
         Largest P_x/P_y of the landings, infinite where a tensile ground force would be required; None without a landing.
@@ -81,6 +78,7 @@ class _RunContext:
     spin_ratio: float
     gravity: float
     landing: str
+    tenon: float
 
 
 @keywords_of(JumpOptions)
@@ -133,7 +131,7 @@ def solve_jump(block: TwoLayerBlock, motion: Motion, options: JumpOptions) -> Re
     check_options(options.drop, options.direction, options.landing, options.gravity)
     gravity, landing = options.gravity, options.landing
     ratio = spin_ratio(block, options.spin, contact.restitution_x, contact.restitution_y)
-    run = _RunContext(motion, block, contact, ratio, gravity, landing)
+    run = _RunContext(motion, block, contact, ratio, gravity, landing, options.tenon)
     windows = [_window_instants(motion, *window) for window in options.windows or ((None, None),)]
     paths = _run_chains(run, options.direction, options.drop, options.first, windows)
     chains = tuple(summarise_chain(path) for path in paths)
@@ -159,16 +157,27 @@ def solve_jump(block: TwoLayerBlock, motion: Motion, options: JumpOptions) -> Re
         *all_phases_and_events(motion, parts),
         options,
         warnings=chain_warnings(motion, chains, contact.mu),
-        citations=papers("jump", *(() if landing == "paper" else ("landing with friction",))),
+        citations=papers("jump", *(("landing with friction",) if landing == "friction" else ())),
     )
 
 
 def _final_outcome(chains: tuple[Chain, ...]) -> str:
     """Return the outcome of a run."""
     if not chains:
-        return DID_NOT_ROCK
+        return ChainOutcome.DID_NOT_ROCK
     last = chains[-1].outcome
-    return JUMPED if last == NO_JUMP and any(chain.outcome == JUMPED for chain in chains) else last
+    # a last chain without a jump does not undo an earlier jump
+    for outcome in (ChainOutcome.JUMPED, ChainOutcome.IN_MORTISES):
+        if last in (ChainOutcome.NO_JUMP, ChainOutcome.IN_MORTISES) and any(chain.outcome == outcome for chain in chains):
+            return outcome
+    return last
+
+
+def leaves_mortise(response: Response[JumpOutcome]) -> bool | None:
+    """Return whether the tenons leave their mortises in any chain; None without tenons."""
+    if not response.options.tenon:
+        return None
+    return any(chain.foot_rise_m is not None and chain.outcome != ChainOutcome.IN_MORTISES for chain in response.outcome.chains)
 
 
 def check_options(drop: float, direction: str, landing: str, gravity: float) -> None:
@@ -211,10 +220,12 @@ def _run_chains(run: _RunContext, direction: str, drop: float, first: bool, wind
                 break
             paths.append(_run_chain(run, floor_drop, *onset))
             path = paths[-1]
-            if not path.is_complete or summarise_chain(path).outcome not in (NO_JUMP, JUMPED):
+            if not path.is_complete or summarise_chain(path).outcome not in COMPLETE:
                 return paths
-            # after a landing the block stands on the ground: no further drop
-            current_instant, floor_drop = path.end, floor_drop if path.first_landing is None else 0.0
+            # after a landing the block stands on the ground: no further drop, no mortises
+            current_instant = path.end
+            if path.first_landing is not None and not path.held:
+                floor_drop, run = 0.0, replace(run, tenon=0.0)
             if first:
                 break
     return paths
@@ -232,14 +243,17 @@ def _next_onset(run: _RunContext, direction: str, start: Instant) -> tuple[Insta
 def _run_chain(run: _RunContext, drop: float, start: Instant, sign: float) -> ChainPath:
     """Solve one chain from its onset, in the frame of its forward direction."""
     motion, block, contact, gains = run.motion, run.block, run.contact, (sign, 0.0, 0.0)
-    make_path = partial(ChainPath, motion, block, run.gravity, drop, start, sign)
+    make_path = partial(ChainPath, motion=motion, block=block, gravity=run.gravity, drop=drop, start=start, sign=sign)
     parameters = rocking.rocking_parameters(block, run.gravity, "both")
     rocking_run = continue_after_record(rocking.ROCKING_MODEL, motion, parameters, [0.0, 0.0], rocking.ROCK, gains=gains, start=start)
     if rocking_run.final_mode != rocking.IMPACT:
-        return make_path(rocking_run, None, None)
+        return make_path(rocking_path=rocking_run, launch=None, flight_path=None)
     takeoff = launch(block, float(rocking_run.final[rocking.OMEGA]), run.spin_ratio, contact.restitution_x, contact.restitution_y)
     if not takeoff.jumps:
-        return make_path(rocking_run, takeoff, None)
+        return make_path(rocking_path=rocking_run, launch=takeoff, flight_path=None)
+    is_held = run.tenon > 0.0 and foot_rise(block, takeoff, run.gravity) <= run.tenon
+    drop = 0.0 if is_held else drop
+    make_path = partial(make_path, drop=drop, held=is_held)
     parameters = flying.flight_parameters(block, run.gravity, contact.mu, contact.kinetic, drop, motion.dt, run.landing)
     initial_state = [0.0, takeoff.spin, 0.0, takeoff.horizontal, 0.0, takeoff.vertical, *[0.0] * 4]
     flight_run = continue_after_record(FLIGHT_MODEL, motion, parameters, initial_state, flying.FLIGHT, gains=gains, start=rocking_run.end)
@@ -249,4 +263,4 @@ def _run_chain(run: _RunContext, drop: float, start: Instant, sign: float) -> Ch
             time=motion.start_s + flight_run.end_time,
             kinetic=contact.kinetic,
         )
-    return make_path(rocking_run, takeoff, flight_run)
+    return make_path(rocking_path=rocking_run, launch=takeoff, flight_path=flight_run)

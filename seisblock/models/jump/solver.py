@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from seisblock.bodies.from_spec import spec_values, without_friction
 from seisblock.bodies.table import BodySpec
-from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact_from_table, two_layer_from_table
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock, base_from_table, contact_from_table, two_layer_from_table
 from seisblock.core.errors import BodyError
 from seisblock.core.registry import RowResult, Solver, SolverBody, ValueMap, register
 from seisblock.models.jump.batch import jump_many
-from seisblock.models.jump.chain import JUMPED, OVERTURNED_LANDED, OVERTURNED_ROCKING
-from seisblock.models.jump.describe import chain_warnings
+from seisblock.models.jump.chain import ChainOutcome
 from seisblock.models.jump.options import JumpOptions
+from seisblock.models.jump.segments import chain_warnings
 from seisblock.models.jump.solve import JumpOutcome, solve_jump
 from seisblock.records import Motion
 
@@ -26,14 +26,19 @@ def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
     if "mu" not in contact_values:
         raise BodyError("{source}: friction required: give mu (static coefficient)", source=spec.source)
     block = two_layer_from_table(spec.description, spec.parameters.get("side", "short"))
-    options = {**without_friction(values), "contact": Contact(**contact_values), **spec_values(spec, "drop")}
+    options = {
+        **without_friction(values),
+        "contact": Contact(**contact_values),
+        **base_from_table(spec.description),
+        **spec_values(spec, "drop", "tenon"),
+    }
     return SolverBody(spec.name, block, JumpOptions(**options))
 
 
 def _solve_rows(bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowResult]:
-    """Solve two-layer blocks of equal options; jammed feet, stopped runs and time windows are left out."""
+    """Solve two-layer blocks of equal options; jammed feet, stopped runs and time windows are left out, and tenons."""
     shared: JumpOptions = bodies[0].options
-    if shared.windows:
+    if shared.windows or shared.tenon:
         return {}
     contacts, drop = [body.options.contact for body in bodies], [body.options.drop for body in bodies]
     result = jump_many(
@@ -70,16 +75,21 @@ SOLVER = register(
         outcome=JumpOutcome,
         solve=solve_jump,
         bodies=(TwoLayerBlock,),
-        columns=("side", "mu", "mu_kinetic", "drop"),
+        columns=("side", "mu", "mu_kinetic", "drop", "tenon"),
         build_body=_build_body,
         event="outcome",
-        event_values=(JUMPED,),
+        event_values=(ChainOutcome.JUMPED,),
         overturned="outcome",
-        overturned_values=(OVERTURNED_ROCKING, OVERTURNED_LANDED),
+        overturned_values=(ChainOutcome.OVERTURNED_ROCKING, ChainOutcome.OVERTURNED_LANDED),
         displacement="total_displacement_m",
         solve_rows=_solve_rows,
         row_options=("contact", "drop"),
         threshold=_threshold,
+        describe="seisblock.models.jump.describe:describe",
+        plot="seisblock.models.jump.plot:figure",
+        animate="seisblock.models.jump.animate:animate",
+        section="seisblock.models.jump.describe:SECTION",
+        document="seisblock.models.jump.document:DOCUMENT",
         topics=("jump",),
     )
 )

@@ -14,11 +14,11 @@ from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
+from seisblock.criteria.initiation import Mode
 from seisblock.dynamics import Ensemble, integrate_many
 from seisblock.dynamics.buffers import LONGEST, TOTAL
 from seisblock.dynamics.cancellation import cancel_scope, current_events
 from seisblock.models.respond import constants
-from seisblock.models.respond.describe import FLIGHT, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.models.respond.params import Initial, RespondBatchParams, RespondParams
 from seisblock.models.respond.run import check_settling, zero_motion
 from seisblock.records import Motion
@@ -30,7 +30,7 @@ MIN_ROWS_PER_TASK = 8
 SAMPLES_PER_TASK = 10_000
 """Samples times rows per task of a short motion."""
 
-MODE_COLUMNS = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT)
+MODE_COLUMNS = (Mode.REST, Mode.SLIDE, Mode.ROCK, Mode.SLIDE_ROCK, Mode.FLIGHT)
 """Modes as columns of :attr:`RespondBatchResult.time_in_mode_s`."""
 
 
@@ -207,7 +207,7 @@ def _run_batch(
         impacts=final[:, constants.IMPACTS].astype(np.int64),
         end_s=end,
         time_in_mode_s=mode_times,
-        longest_flight_s=longest_times[:, MODE_COLUMNS.index(FLIGHT)],
+        longest_flight_s=longest_times[:, MODE_COLUMNS.index(Mode.FLIGHT)],
     )
 
 

@@ -1,78 +1,174 @@
-"""Names of modes, outcomes and events of a full-response run, and its warnings."""
+"""Text of the full response: verdict, and a table of the outcome."""
 
 from __future__ import annotations
 
-from seisblock.bodies.body_name import body_name
-from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.dynamics import GuardEvent
-from seisblock.models.respond import constants
-from seisblock.models.respond.params import RespondParams
-from seisblock.models.respond.run import Run
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
 
-REST, SLIDE, ROCK = N_("rest"), N_("slide"), N_("rock")
-SLIDE_ROCK, FLIGHT, OVERTURNED = N_("slide-rock"), N_("flight"), N_("overturned")
-"""Names of modes in tables, JSON and figures."""
+from seisblock.core.i18n import N_, format_share, gettext, join_list
+from seisblock.core.results import Response
+from seisblock.models.respond.names import OutcomeName
+from seisblock.models.respond.options import effective_friction
+from seisblock.models.respond.outcome import RespondOutcome
+from seisblock.output.directions import direction_label, with_direction
+from seisblock.output.text.section import SEVERE, Section
+from seisblock.output.text.tables import (
+    format_number,
+    format_seconds,
+    impacts_cell,
+    side_by_side,
+    tilt_ratio_cell,
+)
+from seisblock.output.text.threshold import ROCKS, SLIDES, threshold_text
+from seisblock.output.units_display import Unit, acceleration_unit, format_length, length_cell, length_unit
 
-STAYS_AT_REST, OVERTURNS, STILL_MOVING, ENDLESS_HOPS = N_("rests"), N_("overturns"), N_("moves on"), N_("hops without end")
-"""Outcomes: no motion, overturning, still moving at the end, impact limit exceeded."""
+Responses = Sequence[Response[RespondOutcome]]
 
-MOTION_OUTCOMES = {
-    (True, False, False): N_("slides"), (False, True, False): N_("rocks"), (False, False, True): N_("flies"),
-    (True, True, False): N_("slides and rocks"), (True, False, True): N_("slides and flies"),
-    (False, True, True): N_("rocks and flies"), (True, True, True): N_("slides, rocks and flies"),
-}  # fmt: skip
-"""Outcomes of a body that moved and did not overturn, by (slid, rocked, flew)."""
+OUTCOME_TEXTS: dict[str, str] = {OutcomeName.STILL_BOUNCING: N_("no result")}
+"""Texts of the outcomes whose names in JSON are not read as such."""
 
-
-def outcome_text(run: Run, modes: set[str]) -> str:
-    """Return the outcome of a run that passed through `modes`."""
-    if run.mode == constants.OVERTURNED:
-        return OVERTURNS
-    if run.mode == constants.GAVE_UP:
-        return ENDLESS_HOPS
-    if not run.ends_at_rest:
-        return STILL_MOVING
-    motions = (bool({SLIDE, SLIDE_ROCK} & modes), bool({ROCK, SLIDE_ROCK} & modes), FLIGHT in modes)
-    return MOTION_OUTCOMES[motions] if any(motions) else STAYS_AT_REST
+MIN_SLIP_M = 5e-4
+"""Displacements below this are reported as zero, m."""
 
 
-MODE_EVENT_NAMES = {
-    REST: N_("comes to rest"), SLIDE: N_("slides"), ROCK: N_("rocks"), SLIDE_ROCK: N_("slides while rocking"),
-    FLIGHT: N_("lifts off"),
-}  # fmt: skip
-"""Names of events by the mode that starts."""
+def describe(response: Response[RespondOutcome], *, gal: bool = True, name: str = "") -> str:
+    """Return the outcome in a sentence.
+
+    Parameters
+    ----------
+    response : Response
+    gal : bool
+    name : str
+        Begin of the sentence; by default the component.
+    """
+    return gettext("{name}: {verdict}.", name=name or response.motion.name or "x", verdict=outcome_text(response, gal=gal))
 
 
-def event_name(change: GuardEvent) -> str:
-    """Return the name of an event."""
-    if change.target == constants.OVERTURNED:
-        return N_("overturns")
-    if change.target == constants.GAVE_UP:
-        return N_("is given up")
-    if change.guard == constants.RELEASE:
-        return N_("leaves the tenons") if change.target == constants.FLIGHT else N_("lifts one foot over its tenon")
-    if change.after[constants.IMPACTS] > change.before[constants.IMPACTS]:
-        return N_("landing") if change.source % constants.TENON_OFFSET == constants.FLIGHT else N_("impact")
-    return MODE_EVENT_NAMES[constants.MODES[change.target]]
-
-
-def run_warnings(run: Run, params: RespondParams, end_s: float, settle_s: float) -> tuple[str, ...]:
-    """Return the warnings of a run."""
-    name = body_name(params.rigid_body.name)
-    impacts, jams, lowered_count = (int(run.final[state]) for state in (constants.IMPACTS, constants.JAMS, constants.RATIO_LOWERED))
-    messages: list[str] = []
-    if run.mode == constants.GAVE_UP:
-        text = N_("{name}: run stopped at {time:.3f} s, still bouncing after {impacts} impacts; use a smaller restitution")
-        messages.append(lazy_gettext(text, name=name, time=end_s, impacts=impacts))
-    elif run.mode != constants.OVERTURNED and not run.ends_at_rest:
-        text = N_("{name}: still in motion {time:g} s after the record; results refer to that instant")
-        messages.append(lazy_gettext(text, name=name, time=settle_s))
-    if params.can_jam:
-        text = N_(
-            "{name}: kinetic friction {friction:g} exceeds Painleve's limit {limit:.2f}, above which sliding contact can jam; jams: {jams}"
+def outcome_text(response: Response[RespondOutcome], *, gal: bool = True) -> str:
+    """Return the outcome without component and full stop."""
+    outcome, name = response.outcome, response.motion.name
+    if outcome.overturned:
+        at = outcome.overturning_time_s
+        assert at is not None
+        slid = (
+            gettext(", after sliding {path}", path=format_length(outcome.slip_path_m, gal=gal)) if outcome.slip_path_m >= MIN_SLIP_M else ""
         )
-        messages.append(lazy_gettext(text, name=name, friction=params.mu_kinetic, limit=params.rigid_body.friction_limit, jams=jams))
-    if lowered_count:
-        text = N_("{name}: rocking restitution {ratio:g} reduced in {impacts} impacts, where this value would create energy")
-        messages.append(lazy_gettext(text, name=name, ratio=params.rocking_restitution, impacts=lowered_count))
-    return tuple(messages)
+        towards = direction_label(name, outcome.overturned_towards)
+        if at > response.motion.time[-1]:
+            words = gettext(
+                "overturns to {towards} at {time:.2f} s, after the end of the record{slid}", towards=towards, time=at, slid=slid
+            )
+        else:
+            words = gettext("overturns to {towards} at {time:.2f} s{slid}", towards=towards, time=at, slid=slid)
+    elif outcome.outcome == OutcomeName.RESTS:
+        ratio, mu = min(response.body.arms) / response.body.centre, effective_friction(response.options)
+        template = SLIDES if mu <= ratio else ROCKS
+        shares = tuple(min(mu, arm / response.body.centre) for arm in response.body.arms)
+        gravity, vertical = response.options.gravity, response.options.vertical
+        onset_text = threshold_text(template, (shares[0], shares[1]), response.motion, gravity=gravity, vertical=vertical, gal=gal)
+        words = gettext("{verdict}; {onset}", verdict=gettext("remains at rest"), onset=onset_text)
+    elif outcome.outcome == OutcomeName.STILL_BOUNCING:
+        words = gettext("no result: analysis stopped at {time:.2f} s after {impacts} impacts", time=outcome.end_s, impacts=outcome.impacts)
+    else:
+        words = gettext("{motion}; {end}", motion=join_list(_motion_parts(response, gal=gal)), end=_final_text(response, gal=gal))
+    flag = gettext("; sensitive: an input change of 2e-6 alters the result") if outcome.sensitive else ""
+    return words + flag
+
+
+def _motion_parts(response: Response[RespondOutcome], *, gal: bool) -> Iterator[str]:
+    """Yield the kinds of motion of a body that did not overturn, with their size."""
+    outcome = response.outcome
+    time = outcome.time_in_mode_s
+    rocks = bool(time["rock"] or time["slide_rock"])
+    if rocks:
+        yield rocking_text(outcome.max_rotation_ratio)
+    if outcome.slip_path_m >= MIN_SLIP_M:
+        yield gettext("slides {path} in total", path=format_length(outcome.slip_path_m, _length_unit(outcome, gal=gal)))
+    elif outcome.slip_path_m > 0.0 and not rocks:
+        yield gettext("slides less than 0.5 mm")
+    if outcome.flights and time["flight"] >= 1e-3:
+        yield gettext("in flight for {time:.2f} s", time=time["flight"])
+    if not rocks:
+        yield gettext("no rocking")
+
+
+def rocking_text(ratio: float) -> str:
+    """Return the extent of rocking without overturning; `ratio` is the peak tilt over the overturning angle."""
+    if ratio < 0.01:
+        return gettext("rocks slightly (peak tilt less than 1 % of the overturning angle)")
+    return gettext("rocks (peak tilt {share} of the overturning angle)", share=format_share(ratio))
+
+
+def _final_text(response: Response[RespondOutcome], *, gal: bool) -> str:
+    """Return the residual displacement of a body that did not overturn."""
+    outcome, name = response.outcome, response.motion.name
+    displacement = outcome.final_displacement_m
+    if not outcome.settled:
+        return gettext("still moving at the end of the analysis")
+    if abs(displacement) < MIN_SLIP_M:
+        return gettext("no residual displacement")
+    length = format_length(abs(displacement), _length_unit(outcome, gal=gal))
+    return gettext("residual displacement {moved}", moved=with_direction(length, name, displacement))
+
+
+def _length_unit(outcome: RespondOutcome, *, gal: bool) -> Unit:
+    """Return the common unit of slip path and residual displacement."""
+    return length_unit([outcome.slip_path_m, outcome.final_displacement_m], gal=gal)
+
+
+def outcome_table(responses: Responses, *, gal: bool) -> Any:
+    """Return the table of the outcome, a column per direction."""
+    block, options, outcomes = responses[0].body, responses[0].options, [response.outcome for response in responses]
+    varies = any(response.body != block for response in responses)
+    ratio = min(block.arms) / block.centre
+    friction, level = effective_friction(options), acceleration_unit(gal=gal)
+    onset = min(friction, ratio) * options.gravity / level.size
+    unit = length_unit((length for o in outcomes for length in (o.max_displacement_m, o.slip_path_m)), gal=gal)
+    values = {"name": gettext(block.name), "mu": options.mu, "kinetic": options.mu_kinetic}
+    frictions = N_("{name}: mu {mu:g}, kinetic {kinetic:g}")
+    title = N_("{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
+    if options.tenon:
+        values["tenon"] = format_length(options.tenon, gal=gal)
+        frictions = N_("{name}: tenons {tenon}; out of the mortises: mu {mu:g}, kinetic {kinetic:g}")
+        title = N_(
+            "{name}: b/h {ratio:.3f}, tenons {tenon}; out of the mortises: mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}"
+        )
+    if not varies:
+        first = gettext("slides") if friction <= ratio else gettext("rocks")
+        values |= {"ratio": ratio, "first": first, "onset": f"{onset:.{0 if gal else 2}f} {level.name}"}
+    mode_times = [o.time_in_mode_s for o in outcomes]
+    rows: list[tuple[str, list[Any]]] = [
+        *([(gettext("b/h"), [f"{min(r.body.arms) / r.body.centre:.3f}" for r in responses])] if varies else []),
+        (gettext("outcome"), [gettext(OUTCOME_TEXTS.get(o.outcome, o.outcome)) for o in outcomes]),
+        (gettext("peak tilt (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
+        (gettext("  over alpha"), [tilt_ratio_cell(o.max_rotation_ratio, overturned=o.overturned) for o in outcomes]),
+        (gettext("residual ({unit})", unit=unit.name), [length_cell(o.final_displacement_m, unit) for o in outcomes]),
+        (gettext("max. displacement ({unit})", unit=unit.name), [length_cell(o.max_displacement_m, unit) for o in outcomes]),
+        (gettext("slip path ({unit})", unit=unit.name), [length_cell(o.slip_path_m, unit) for o in outcomes]),
+        (gettext("flights, impacts"), [f"{o.flights}, {impacts_cell(o.impacts, o.max_rotation_ratio)}" for o in outcomes]),
+        (gettext("  slide, rock (s)"), [f"{format_seconds(s['slide'])}, {format_seconds(s['rock'])}" for s in mode_times]),
+        (gettext("  slide-rock, flight (s)"), [f"{format_seconds(s['slide_rock'])}, {format_seconds(s['flight'])}" for s in mode_times]),
+        (
+            gettext("friction, impact losses (J)"),
+            [f"{format_number(o.energy_friction_j)}, {format_number(o.energy_impacts_j)}" for o in outcomes],
+        ),
+    ]
+    heading = gettext(frictions if varies else title, **values)
+    return side_by_side(heading, ["", *(r.motion.name or "x" for r in responses)], [[row_name, *cells] for row_name, cells in rows])
+
+
+def _severity(outcome: RespondOutcome) -> float:
+    """Return the severity of a response; of two that overturn, the earlier one is worse."""
+    if outcome.overturned:
+        assert outcome.overturning_time_s is not None
+        return SEVERE + 1.0 + 1.0 / (1.0 + outcome.overturning_time_s)
+    return min(max(outcome.max_rotation_ratio, outcome.slip_path_m), SEVERE - 0.1)
+
+
+SECTION = Section(
+    title=N_("Full response"),
+    severity=_severity,
+    verdict=describe,
+    sentences=lambda response: iter([describe(response)]),
+)

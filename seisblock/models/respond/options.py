@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -97,5 +98,20 @@ class RespondOptions(SolverOptions):
         ),
     )
     sensitivity: bool = field(
-        default=True, metadata=option("Test with two more runs if a change of the input by 1e-6 changes the verdict.")
+        default=True, metadata=option("Test with four more runs if a change of the input by up to 2e-6 changes the verdict.")
     )
+
+
+def effective_friction(options: RespondOptions) -> float:
+    """Return the friction coefficient at the feet, 1; infinite with tenons.
+
+    Parameters
+    ----------
+    options : RespondOptions
+
+    Examples
+    --------
+    >>> effective_friction(RespondOptions(mu=0.3)), effective_friction(RespondOptions(mu=0.3, tenon=0.02))
+    (0.3, inf)
+    """
+    return math.inf if options.tenon > 0.0 else float(options.mu)

@@ -10,9 +10,10 @@ import numpy as np
 
 from seisblock.core._display import DisplayMixin
 from seisblock.core.results import Phase, Status
+from seisblock.criteria.initiation import Mode
 from seisblock.dynamics import EventLog
 from seisblock.models.respond import constants
-from seisblock.models.respond.describe import OVERTURNED, outcome_text
+from seisblock.models.respond.names import outcome_name
 from seisblock.models.respond.params import RespondParams
 from seisblock.models.respond.run import Run
 
@@ -45,8 +46,8 @@ class RespondOutcome(DisplayMixin):
     Parameters
     ----------
     outcome : str
-        ``rests``, ``slides``, ``rocks``, ``flies`` or a combination, ``overturns``, ``moves on`` (still moving after `settle_s`) or
-        ``hops without end`` (impact limit exceeded).
+        ``rests``, ``slides``, ``rocks``, ``flies`` or a combination, ``overturns``, ``still moving`` (after `settle_s`) or
+        ``still bouncing`` (impact limit exceeded).
     overturned : bool
     overturned_towards : str or None
         ``+x`` or ``-x``.
@@ -67,7 +68,8 @@ class RespondOutcome(DisplayMixin):
     energy_friction_j, energy_impacts_j, energy_ground_j : float
         Energy dissipated by friction and by impacts, and work of the ground motion.
     sensitive : bool or None
-        True if a change of the input by 1e-6 changes overturning or its side; None: not tested.
+        True if a change of the input by up to 2e-6 changes overturning or its side; None: not tested. See also `predictable_until_s` of
+        the assessment.
     events : list of dict
         Mode changes; the first entry is the initial mode.
     settled : bool
@@ -137,7 +139,7 @@ def phases(events: list[ModeChange], end_s: float) -> tuple[Phase, ...]:
     """Return the phases of one mode each; changes of corner or slip direction do not split a phase."""
     merged: list[ModeChange] = []
     for event in events:
-        if event["mode"] != OVERTURNED and not (merged and merged[-1]["mode"] == event["mode"]):
+        if event["mode"] != Mode.OVERTURNED and not (merged and merged[-1]["mode"] == event["mode"]):
             merged.append(event)
     ends = [event["time_s"] for event in merged[1:]] + [end_s]
     return tuple(Phase(event["mode"], event["time_s"], end) for event, end in zip(merged, ends, strict=True))
@@ -169,7 +171,7 @@ def build_outcome(run: Run, params: RespondParams, start_s: float, sensitive: bo
     max_x, min_x = run.extrema(constants.X)
     release_times = run.events.time[(run.events.guard == constants.RELEASE) & (run.events.target == constants.FLIGHT)]
     return RespondOutcome(
-        outcome=outcome_text(run, {event["mode"] for event in events}),
+        outcome=outcome_name(run, {event["mode"] for event in events}),
         overturned=overturned,
         overturned_towards=("+x" if final[constants.THETA] > 0.0 else "-x") if overturned else None,
         overturning_time_s=end_s if overturned else None,

@@ -46,6 +46,11 @@ SOLVER = register(
         overturned="overturned",
         displacement="max_displacement_m",
         threshold=_threshold,
+        describe="seisblock.models.respond.describe:describe",
+        plot="seisblock.models.respond.plot:figure",
+        animate="seisblock.models.respond.animate:animate",
+        section="seisblock.models.respond.describe:SECTION",
+        document="seisblock.models.respond.document:DOCUMENT",
         topics=("all modes", "two-layer body"),
     )
 )

@@ -37,8 +37,6 @@ _t = types()
 MAX_SWINGS = 10_000
 """Swings after which free rocking counts as endless (restitution of 1)."""
 
-MAX_LEGS = 2 * MAX_SWINGS + 2
-
 STANDS, TO_THE_RIGHT, TO_THE_LEFT, ENDLESS = 0, 1, -1, 2
 """Ends of free rocking."""
 

@@ -29,7 +29,7 @@ import math
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.core.i18n import N_
+from seisblock.core.i18n import N_, Term
 from seisblock.core.typing import FloatArray
 from seisblock.dynamics import Model
 from seisblock.dynamics.array_types import MATRIX
@@ -76,14 +76,19 @@ ALONG, ACROSS, UPWARD = range(3)
 REST_HOP = 1e-8
 """Time between two impacts below which rocking ends, s."""
 
-MODES = (
-    N_("rest"),
-    N_("rocks to +x"),
-    N_("rocks to -x"),
-    N_("beyond +alpha"),
-    N_("beyond -alpha"),
-    N_("overturned"),
-)
+
+class RockPhase(Term):
+    """Modes by number, and names of the phases."""
+
+    REST = N_("rest")
+    TO_RIGHT = N_("rocks to +x")
+    TO_LEFT = N_("rocks to -x")
+    BEYOND_RIGHT = N_("beyond +alpha")
+    BEYOND_LEFT = N_("beyond -alpha")
+    OVERTURNED = N_("overturned")
+
+
+MODES = tuple(RockPhase)
 
 HALF_PI = math.pi / 2
 

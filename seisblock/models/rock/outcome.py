@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
@@ -149,17 +150,28 @@ def build_outcome(params: RockParams, motion: Motion, trajectory: Trajectory, fr
     )
 
 
-def event_name(change: GuardEvent) -> str:
+class RockEvent(StrEnum):
+    """Names of the events."""
+
+    ROCKING_STARTS = "rocking starts"
+    IMPACT = "impact"
+    PASSES_ALPHA = "passes alpha"
+    COMES_BACK = "comes back over alpha"
+    COMES_TO_REST = "comes to rest"
+    OVERTURNS = "overturns"
+
+
+def event_name(change: GuardEvent) -> RockEvent:
     """Return the name of an event."""
     if change.source == model.REST:
-        return "rocking starts"
+        return RockEvent.ROCKING_STARTS
     if change.target == model.OVERTURNED:
-        return "overturns"
+        return RockEvent.OVERTURNS
     if change.target in (model.BEYOND_RIGHT, model.BEYOND_LEFT):
-        return "passes alpha"
+        return RockEvent.PASSES_ALPHA
     if change.source in (model.BEYOND_RIGHT, model.BEYOND_LEFT):
-        return "comes back over alpha"
-    return "comes to rest" if change.target == model.REST else "impact"
+        return RockEvent.COMES_BACK
+    return RockEvent.COMES_TO_REST if change.target == model.REST else RockEvent.IMPACT
 
 
 def phases(trajectory: Trajectory, start_s: float) -> Sequence[Phase]:

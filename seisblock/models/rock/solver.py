@@ -36,6 +36,11 @@ SOLVER = register(
         event="overturned",
         overturned="overturned",
         threshold=_threshold,
+        describe="seisblock.models.rock.describe:describe",
+        plot="seisblock.models.rock.plot:figure",
+        animate="seisblock.models.rock.animate:animate",
+        section="seisblock.models.rock.describe:SECTION",
+        document="seisblock.models.rock.document:DOCUMENT",
         topics=("rocking",),
     )
 )

@@ -7,9 +7,6 @@ from collections.abc import Sequence
 
 from seisblock.models.slide.model import COSINE, DOWNHILL, FLIGHT, FOOT_POSITION, GRAVITY, KINETIC, LEVEL, SINE, SLIP, STICK
 
-UNBOUNDED_SLIP = math.inf
-"""Residual slip of a body that kinetic friction does not stop."""
-
 
 def slip_at_rest(state: Sequence[float], mode: int, p: Sequence[float]) -> float:
     """Return the slip at which a body comes to rest on ground at rest, m ([Fujino1978]_).

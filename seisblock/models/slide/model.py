@@ -28,7 +28,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.bodies.sliding_base import SlidingBase
-from seisblock.core.i18n import N_
+from seisblock.core.i18n import N_, Term
 from seisblock.dynamics.array_types import MATRIX, VECTOR
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.model_api import CONSTANT, OFF, RESET, SERIES, SKIP
@@ -211,13 +211,26 @@ def reset(mode, guard, y, f, p):
     return _mode_at_zero_speed(level, y, f, p)
 
 
+class SlidePhase(Term):
+    """Names of the phases, in the order of the modes on either level of the base, and the end of one-way sliding.
+
+    Forward is the component's positive direction, downhill on a positive slope.
+    """
+
+    STICK = N_("stick")
+    FORWARD = N_("slip forward")
+    BACKWARD = N_("slip backward")
+    FLIGHT = N_("flight")
+    CONTACT_LOST = N_("contact lost (one-way)")
+
+
 SLIDE = Model(
     "slide",
     series,
     reset,
     ("slip", "speed", "gap", "gap speed"),
     ("limit forward", "limit backward", "contact", "foot"),
-    (*(N_("stick"), "slip forward", "slip backward", N_("flight")) * 2, N_("contact lost (one-way)")),
+    (*list(SlidePhase)[:LEVEL] * 2, SlidePhase.CONTACT_LOST),
     tracked=1,
     skip=skip,
 )

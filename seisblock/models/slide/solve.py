@@ -13,7 +13,7 @@ import numpy as np
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
-from seisblock.core.i18n import N_, Message, lazy_gettext
+from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Phase, Response, Status, make_events, make_phases
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
@@ -21,13 +21,31 @@ from seisblock.dynamics import GuardEvent, Trajectory, integrate
 from seisblock.models.slide.final_slip import slip_at_rest
 from seisblock.models.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.models.slide.options import SlideOptions
-from seisblock.models.slide.path_length import path_length
 from seisblock.records._validation import Gain, validate_inputs, vertical_gain
 from seisblock.records.motion import UP, Motion
 from seisblock.references import papers
 
-SLIDING_PHASES = (N_("slip forward"), N_("slip backward"))
-"""Names of the sliding phases; forward is the component's positive direction, downhill on a positive slope."""
+
+def path_length(trajectory: Trajectory) -> float:
+    """Return the length of the slip path, m.
+
+    Without flight the slip reverses at events only, so that its values there suffice; with flight all samples are used.
+    """
+    changes = trajectory.events
+    if (changes.target % LEVEL == FLIGHT).any():
+        return _length_between_samples(trajectory)
+    slip = np.append(changes.before[:, SLIP], trajectory.final[SLIP])
+    return math.fsum(np.abs(np.diff(slip, prepend=0.0)).tolist())
+
+
+def _length_between_samples(trajectory: Trajectory) -> float:
+    """Return the length of the path over all samples and events, m; `math.fsum` makes it independent of the chunks of the trajectory."""
+    increments, last_slip = list[FloatArray](), np.empty(0)
+    for path in trajectory.iter_paths():
+        slip = np.concatenate([last_slip, path.values(SLIP)])
+        increment, last_slip = np.abs(np.diff(slip)), slip[-1:]
+        increments.append(increment[increment > 0.0])
+    return math.fsum(distance for part in increments for distance in part.tolist())
 
 
 _FRICTION_SIGN = np.zeros(LEVEL)

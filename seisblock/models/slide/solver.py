@@ -51,6 +51,11 @@ SOLVER = register(
         event="slips",
         displacement="max_slip_m",
         threshold=_threshold,
+        describe="seisblock.models.slide.describe:describe",
+        plot="seisblock.models.slide.plot:figure",
+        animate="seisblock.models.slide.animate:animate",
+        section="seisblock.models.slide.describe:SECTION",
+        document="seisblock.models.slide.document:DOCUMENT",
         topics=("sliding", "one-way sliding"),
     )
 )

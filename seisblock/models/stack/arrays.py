@@ -20,6 +20,7 @@ from seisblock.models.stack.constraint_assembly import CONTACT_ID_COLUMNS, STEP_
 from seisblock.models.stack.constraint_row import ROW_COLUMNS, VELOCITY_COLUMNS
 from seisblock.models.stack.frames import BODY, BOX, BOX_CENTRE, INERTIA, INERTIA_COLUMNS, INVERSE, MASS, Q, R, X
 from seisblock.models.stack.hulls import MAX_CORNERS, WearDepths, build_hulls
+from seisblock.models.stack.newton import WORK_COLUMNS
 from seisblock.models.stack.sleeping import SUPPORT_COLUMNS
 from seisblock.models.stack.spring_contact import FRICTION, KINETIC, SLOT
 from seisblock.models.stack.step import BOX_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH_ROWS, SIGMA
@@ -106,6 +107,8 @@ class PileArrays:
             np.zeros((bodies, 9)),
             np.zeros((bodies, VELOCITY_COLUMNS)),
             np.zeros(STEP_INFO_COLUMNS),
+            np.zeros((bodies, bodies, 36)),
+            np.zeros((bodies, WORK_COLUMNS)),
             # the ground counts as a sleeping body with one support point, so that stones can fall asleep on it
             np.repeat([[0, 0, 0], [1, 0, 0]], [bodies - 1, 1], axis=0),
             np.zeros((bodies, 1 + MAX_CORNERS, SUPPORT_COLUMNS)),

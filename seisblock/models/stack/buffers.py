@@ -66,12 +66,14 @@ class PileMemory(NamedTuple):
         Axis-aligned bounding boxes: centres and half sizes.
     scratch : (36, 18) array
         Scratch.
-    contact_ids, constraint_rows : (k, 8), (k, 92) arrays
+    contact_ids, constraint_rows : (k, 8), (k, 97) arrays
         Rigid contacts of a step: their bodies and slots, and their constraint rows.
     inverses, body_velocities : (m + 1, 9), (m + 1, 15) arrays
         Inverse inertia of the bodies in the ground's axes; velocities, spins, and gyroscopic change of the spins.
     step_info : (10,) array
         Scalars of the steps.
+    newton_blocks, newton_bodies : (m + 1, m + 1, 36), (m + 1, 28) arrays
+        Scratch of the Newton solver.
     sleep_states, support_points : (m + 1, 3), (m + 1, 17, 17) arrays
         Sleeping bodies, and the points on which they rest.
     """
@@ -89,6 +91,8 @@ class PileMemory(NamedTuple):
     inverses: FloatArray
     body_velocities: FloatArray
     step_info: FloatArray
+    newton_blocks: FloatArray
+    newton_bodies: FloatArray
     sleep_states: IntArray
     support_points: FloatArray
 
@@ -181,7 +185,7 @@ MEMORY = _t.NamedTuple(
         *(ARRAY_4D, ARRAY_4D, ARRAY_4D, ARRAY_4D),
         *(INTEGERS, MATRIX, MATRIX, MATRIX),
         *(INTEGER_TABLE, MATRIX, MATRIX, MATRIX, VECTOR),
-        *(INTEGER_TABLE, BLOCK),
+        *(BLOCK, MATRIX, INTEGER_TABLE, BLOCK),
     ),
     PileMemory,
 )

@@ -46,7 +46,9 @@ CONE_CENTRE, STATIC, KINETIC, WAS_SLIDING, SLIP_DIRECTION, SLIP_SPEED, SLIP_STAT
     81,
     82,
 )
-ROW_COLUMNS = 92
+PENALTY, PRESSURE, TRIAL_SLIP = 92, 93, 94
+PENALTY_CENTRE, SLIP_CHANGE = SEARCH_DIRECTION, SEARCH_DIRECTION + 3
+ROW_COLUMNS = 97
 """Columns of a constraint row. Arms from the centres of both bodies (3, 3), m; normal out of the second body (3); Delassus block W, the
 velocity per unit impulse (9), and its inverse (9); spins per unit impulse (9, 9); impulse on the first body (3), N s; lower bound of the
 normal velocity, m/s; friction coefficient in use; change of the relative velocity by rotation over half a step (3); impulse before a
@@ -55,7 +57,9 @@ restitution, negative for a plastic impact; impulse up to the impact (3); axis o
 Friction: centre of the cone over the normal impulse (3), static and kinetic coefficient, 1 if the point slid, direction (3) and speed,
 m/s, of the slip, and slip state in the step. Reference speed of impacts, m/s; 1 for a contact of a standing stone; impulse before the
 sweeps (3); radius of the rim, m, negative if it belongs to the second body, 0 if none; share of a step within which impacts are
-simultaneous; share of the impulse of a restitution row; normal force before the impact, N; and impulse of the impacts at the step (3)."""
+simultaneous; share of the impulse of a restitution row; normal force before the impact, N; and impulse of the impacts at the step (3).
+Newton: penalty of a contact, N s per m/s, normal impulse of the friction limit, and relative velocity (3); centre of the penalty
+and change of the velocity by the step are in the columns of the search direction."""
 
 LINEAR, ANGULAR, GYROSCOPIC, START_VELOCITY = 0, 3, 6, 9
 VELOCITY_COLUMNS = 15

@@ -41,7 +41,7 @@ from seisblock.models.stack.constraint_row import (
     centre_friction_cone,
     relative_velocity,
 )
-from seisblock.models.stack.pgs import TOLERANCE, creates_energy, impulse_work, solve_contacts, solve_pgs
+from seisblock.models.stack.pgs import TOLERANCE, creates_energy, impulse_work, solve_contacts, solve_impulses
 from seisblock.models.stack.spring_contact import CACHED_FORCE
 
 _t = types()
@@ -271,7 +271,7 @@ def solve_friction(count, n, has_impact, pile, memory):
         TOLERANCE * memory.step_info[FREE_FALL_SPEED],
     )
     for attempt in range(MAX_TRIES):
-        sweeps = solve_pgs(count, contact_ids, rows, n, pile.inertias, tolerance, velocities)
+        sweeps = solve_impulses(count, n, tolerance, pile, memory)
         # each try updates the cones at least of one point; MAX_TRIES bounds the cost
         if sweeps == 0 or attempt == MAX_TRIES - 1 or not _update_cones(count, has_impact, memory):
             break
@@ -284,4 +284,4 @@ def solve_friction(count, n, has_impact, pile, memory):
     # fall back to centred cones, whose impulses dissipate
     for i in range(count):
         centre_friction_cone(memory.constraint_rows[i])
-    return solve_contacts(count, contact_ids, rows, n, pile.inertias, tolerance, velocities)
+    return solve_contacts(count, n, tolerance, pile, memory)

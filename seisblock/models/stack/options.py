@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.core.i18n import N_
-from seisblock.core.options import GRAVITY, VERTICAL, SolverOptions, documented, option
+from seisblock.core.options import ACROSS, GRAVITY, VERTICAL, SolverOptions, documented, option
 from seisblock.core.typing import Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records._validation import Gain
@@ -67,9 +67,7 @@ class StackOptions(SolverOptions):
         ),
     )
     vertical: Gain | None = field(default=None, metadata=VERTICAL)
-    across: Gain = field(
-        default=True, metadata=option(N_("Apply or omit the other horizontal component."), "--across/--no-across", document=bool)
-    )
+    across: Gain = field(default=True, metadata=ACROSS)
     gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)
     step: float | None = field(
         default=None,

@@ -1,9 +1,11 @@
-"""Projected Gauss-Seidel solver of the impulses of one step (non-smooth contact dynamics, [Jean1999]_, [Moreau1988]_).
+"""Solver of the impulses of one step (non-smooth contact dynamics, [Jean1999]_, [Moreau1988]_).
 
 The impulse P of a contact obeys Signorini's condition on velocities, 0 <= P_n, u_n >= b, P_n (u_n - b) = 0, and Coulomb's cone,
 |P_t| <= mu P_n, with P_t against u_t while sliding ([Jean1999]_ section 3). The bound b is -gap / dt for an open gap, so that it may just
 close, and a small separation speed for an overlap. A sweep solves each contact in turn, exactly, with the others fixed. Sweeps are
-warm-started from the forces of the last steps and accelerated by nonlinear conjugate gradients ([Silcowitz2010]_).
+warm-started from the forces of the last steps and accelerated by nonlinear conjugate gradients ([Silcowitz2010]_). An impulse passes one
+joint a sweep, so that their number grows with the pile: beyond a few contacts :mod:`seisblock.models.stack.newton` solves the same laws,
+and the sweeps serve where it fails.
 
 The sweeps need not converge, and a solution need not exist: with high friction a contact may lift what it should hold (Painleve) and
 contacts amplify each other. Such a step is solved again with the cone complementarity condition u_n - b >= mu |u_t|: the impulses then
@@ -21,6 +23,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import INTEGER_TABLE, MATRIX, VECTOR
+from seisblock.models.stack.buffers import LAYOUT, MEMORY
 from seisblock.models.stack.constraint_row import (
     BILATERAL,
     CONE_CENTRE,
@@ -38,12 +41,19 @@ from seisblock.models.stack.constraint_row import (
     apply_impulses,
     relative_velocity,
 )
+from seisblock.models.stack.newton import solve_newton
 
 _t = types()
 
 MAX_SWEEPS = 1000
 TOLERANCE = 5e-4
 """Largest number of sweeps; and velocity change in a sweep, over the speed of a free fall of a step, at which they have converged."""
+
+MIN_NEWTON_CONTACTS = 8
+"""Number of contacts above which Newton's method is faster than the sweeps: two flat joints, and one stone on the ground."""
+
+FINE_RATIO, FINE_SWEEPS = 1e-2, 100
+"""Tolerance of few contacts over :data:`TOLERANCE`, and number of sweeps for which it holds."""
 
 UNCONVERGED_RATIO, DIVERGENCE_RATIO = 10.0, 1e6
 """Velocity change in the last sweep over the tolerance above which a step counts as unconverged; and velocity change in a sweep over that
@@ -188,17 +198,18 @@ def _save_state(n, bodies, rows, velocities, restore):
         _copy(rows[i], START_IMPULSE if restore else IMPULSE, IMPULSE if restore else START_IMPULSE, 3)
 
 
-@kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
-def solve_pgs(n, contact_ids, rows, ground, inertias, tolerance, velocities):
+@kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, _t.float64, MATRIX))
+def solve_pgs(n, contact_ids, rows, ground, inertias, target, tolerance, velocities):
     """Solve the impulses of `n` contacts by projected Gauss-Seidel sweeps; return their number, or 0 and the initial state if they fail.
 
     Parameters
     ----------
     contact_ids : (k, 2) array of int
         The bodies of each contact.
-    rows : (k, 92) array
+    rows : (k, 97) array
         Constraint rows, with the initial impulses (warm start).
-    tolerance : float, m/s
+    target, tolerance : float, m/s
+        Velocity change of a sweep at which the first :data:`FINE_SWEEPS` sweeps end, and the later ones.
     velocities : (m + 1, 15) array
         Velocities and spins with the initial impulses; on return, with the solution.
     """
@@ -212,7 +223,7 @@ def solve_pgs(n, contact_ids, rows, ground, inertias, tolerance, velocities):
             for k in range(3):
                 row[SEARCH_DIRECTION + k] = row[IMPULSE + k]
             max_change = max(max_change, _relax_contact(contact_ids[i, 0], contact_ids[i, 1], ground, inertias, row, False, velocities))
-        if max_change < tolerance:
+        if max_change < (target if sweep < FINE_SWEEPS else tolerance):
             return sweep + 1
         if sweep == 0:
             divergence_limit = DIVERGENCE_RATIO * max_change
@@ -309,11 +320,29 @@ def creates_energy(n, contact_ids, rows, tolerance, velocities):
     return power > 0.0
 
 
-@kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
-def solve_contacts(n, contact_ids, rows, ground, inertias, tolerance, velocities):
-    """Solve the impulses of `n` contacts by :func:`solve_pgs`, or by projected gradients where that finds no solution."""
-    sweeps = solve_pgs(n, contact_ids, rows, ground, inertias, tolerance, velocities)
-    if sweeps > 0 and not creates_energy(n, contact_ids, rows, tolerance, velocities):
+@kernel(_t.int64(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
+def solve_impulses(count, n, tolerance, pile, memory):
+    """Solve the impulses of `count` contacts by Newton's method, or by sweeps; return the number of iterations, 0 without a solution."""
+    contact_ids, rows, inertias, velocities = memory.contact_ids, memory.constraint_rows, pile.inertias, memory.body_velocities
+    if count > MIN_NEWTON_CONTACTS:
+        _save_state(count, n, rows, velocities, False)
+        iterations = solve_newton(
+            count, contact_ids, rows, n, inertias, memory.inverses, tolerance, velocities, memory.newton_blocks, memory.newton_bodies
+        )
+        if iterations > 0:
+            return iterations
+        _save_state(count, n, rows, velocities, True)
+        return solve_pgs(count, contact_ids, rows, n, inertias, tolerance, tolerance, velocities)
+    # the order of the contacts decides what is left of the error: a finer tolerance keeps mirrored and turned stones alike
+    return solve_pgs(count, contact_ids, rows, n, inertias, FINE_RATIO * tolerance, tolerance, velocities)
+
+
+@kernel(_t.int64(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
+def solve_contacts(count, n, tolerance, pile, memory):
+    """Solve the impulses of `count` contacts by :func:`solve_impulses`, or by projected gradients where that finds no solution."""
+    contact_ids, rows, inertias, velocities = memory.contact_ids, memory.constraint_rows, pile.inertias, memory.body_velocities
+    sweeps = solve_impulses(count, n, tolerance, pile, memory)
+    if sweeps > 0 and not creates_energy(count, contact_ids, rows, tolerance, velocities):
         return sweeps
     # a number above MAX_SWEEPS, so that the step counts as unconverged
-    return MAX_SWEEPS + _solve_projected_gradient(n, contact_ids, rows, ground, inertias, tolerance, velocities)
+    return MAX_SWEEPS + _solve_projected_gradient(count, contact_ids, rows, n, inertias, tolerance, velocities)

@@ -148,14 +148,14 @@ def _solve_impacts(count, n, time_before, pile, memory):
     """
     contact_rows, tolerance = memory.constraint_rows, TOLERANCE * memory.step_info[FREE_FALL_SPEED]
     load_until_impact(count, time_before, memory)
-    solve_contacts(count, memory.contact_ids, contact_rows, n, pile.inertias, tolerance, memory.body_velocities)
+    solve_contacts(count, n, tolerance, pile, memory)
     begin_impacts(count, memory)
     for _ in range(MAX_IMPACTS):
         # one impact may drive other contacts together at the same instant
         if not detect_impacts(count, memory):
             break
         rows = add_restitution_rows(count, n, pile, memory)
-        solve_contacts(rows, memory.contact_ids, contact_rows, n, pile.inertias, tolerance, memory.body_velocities)
+        solve_contacts(rows, n, tolerance, pile, memory)
         if (
             rows > count
             and impulse_work(
@@ -164,7 +164,7 @@ def _solve_impacts(count, n, time_before, pile, memory):
             > 0.0
         ):
             make_impact_plastic(count, rows, n, pile, memory)
-            solve_contacts(count, memory.contact_ids, contact_rows, n, pile.inertias, tolerance, memory.body_velocities)
+            solve_contacts(count, n, tolerance, pile, memory)
         else:
             distribute_joint_impulse(count, rows, memory)
         store_impact(count, rows, memory)

@@ -17,7 +17,7 @@ from seisblock.core.results import Event, Histories, Phase, Response, Status
 from seisblock.core.typing import FloatArray
 from seisblock.models.stack.arrays import PLASTIC_RESTITUTION, pile_arrays
 from seisblock.models.stack.options import EDGES, RIGID, SPRINGS, StackOptions
-from seisblock.models.stack.outcome import SimulationResult, StackOutcome, stack_outcome, stone_channels
+from seisblock.models.stack.outcome import SimulationResult, StackOutcome, StoneState, stack_outcome, stone_channels
 from seisblock.models.stack.recorder import SOLVED, UNCONVERGED
 from seisblock.models.stack.simulation import Simulation
 from seisblock.models.stack.static_equilibrium import rigid_steps_per_sample, steps_per_sample
@@ -206,5 +206,5 @@ def _events(outcome: StackOutcome) -> tuple[Event, ...]:
 def _phases(outcome: StackOutcome, start: float, end: float) -> tuple[Phase, ...]:
     """Return the phases before and after the first fall."""
     if outcome.time_s is None:
-        return (Phase("standing", start, end),)
-    return (Phase("standing", start, outcome.time_s), Phase("fallen", outcome.time_s, end))
+        return (Phase(StoneState.STANDING, start, end),)
+    return (Phase(StoneState.STANDING, start, outcome.time_s), Phase(StoneState.FALLEN, outcome.time_s, end))

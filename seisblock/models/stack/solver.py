@@ -33,7 +33,12 @@ SOLVER = register(
         event="overturned_any",
         overturned="overturned_any",
         damage_states={"slip": "residual_slip_m", "overturn": "overturned_any"},
+        spatial=True,
         threshold=lambda pile, options: pile_thresholds(pile, options.points, options.gravity),
+        describe="seisblock.models.stack.describe:describe",
+        plot="seisblock.models.stack.plot:figure",
+        animate="seisblock.models.stack.animate:animate",
+        document="seisblock.models.stack.document:DOCUMENT",
         topics=("rigid pile",),
     )
 )

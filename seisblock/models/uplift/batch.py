@@ -13,7 +13,7 @@ from seisblock.core.typing import ArrayLike
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate_many
 from seisblock.models.uplift.batch_results import UpliftBatchResult, batch_end_states, batch_result
-from seisblock.models.uplift.model import ALL_CORNERS, GLUED, UPLIFT, UPLIFT_REPEAT, parameters, static_state
+from seisblock.models.uplift.model import ALL_CORNERS, FIRST, GLUED, UPLIFT, UPLIFT_REPEAT, parameters, static_state
 from seisblock.records._validation import validate_motion
 from seisblock.records.motion import Motion
 
@@ -60,9 +60,14 @@ def uplift_many(
         np.array([parameters(body, gravity) for body in all_bodies]),
         np.array([static_state(body, gravity) for body in all_bodies]),
     )
-    ensemble, repeat, linear_run = (
-        integrate_many(model, motion, p, initial_states, mode, gains=rows, allow_failures=True)
-        for model, mode in ((UPLIFT, ALL_CORNERS), (UPLIFT_REPEAT, ALL_CORNERS), (UPLIFT, GLUED))
-    )
-    gave_up = ensemble.failed | repeat.failed | linear_run.failed
-    return batch_result(all_bodies, batch_end_states(ensemble), linear_run.extrema, repeat.extrema, gravity, gave_up)
+    ensemble = integrate_many(UPLIFT, motion, p, initial_states, ALL_CORNERS, gains=rows, allow_failures=True)
+    gave_up, linear, repeat = ensemble.failed.copy(), ensemble.extrema.copy(), ensemble.extrema.copy()
+    lifted = np.flatnonzero(ensemble.final[:, FIRST] > 0.0)
+    if len(lifted):
+        # without uplift a run is the linear one, in which round-off does not grow
+        gains_lifted = rows if len(rows) == 1 else rows[lifted]
+        for model, mode, extrema in ((UPLIFT_REPEAT, ALL_CORNERS, repeat), (UPLIFT, GLUED, linear)):
+            run = integrate_many(model, motion, p[lifted], initial_states[lifted], mode, gains=gains_lifted, allow_failures=True)
+            extrema[lifted] = run.extrema
+            gave_up[lifted] |= run.failed
+    return batch_result(all_bodies, batch_end_states(ensemble), linear, repeat, gravity, gave_up)

@@ -71,7 +71,10 @@ class _Amplitudes:
         return float(self.slopes(np.array([omega]))[0, 0])
 
     def resonances(self) -> FloatArray:
-        """Return which modes are undamped resonances of each corner, (4, 6); modes of equal frequency are added first."""
+        """Return which modes are undamped resonances of each corner, (4, 6); modes of equal frequency are added first.
+
+        Modes that a corner does not take part in have amplitudes of round-off.
+        """
         w = self.modes.omega
         same_frequency = np.abs(w[:, None] - w) <= RELATIVE_TOLERANCE * w
         amplitude: FloatArray = np.abs(self.parts @ same_frequency)

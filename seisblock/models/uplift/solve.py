@@ -12,7 +12,7 @@ from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Response, Status
 from seisblock.dynamics import Trajectory, integrate
 from seisblock.models.uplift.batch_results import batch_result, end_states
-from seisblock.models.uplift.model import ALL_CORNERS, GLUED, UPLIFT, UPLIFT_REPEAT, F, U, X, Y, parameters, rotations, static_state
+from seisblock.models.uplift.model import ALL_CORNERS, FIRST, GLUED, UPLIFT, UPLIFT_REPEAT, F, U, X, Y, parameters, rotations, static_state
 from seisblock.models.uplift.options import UpliftOptions
 from seisblock.models.uplift.outcome import UpliftOutcome, build_outcome, events, phases, warnings
 from seisblock.records._validation import validate_inputs, vertical_gain
@@ -60,8 +60,11 @@ def solve_uplift(body: SpringBlock, motion: Motion, options: UpliftOptions) -> R
     gravity, gains = options.gravity, (1.0, 1.0, vertical_gain(motion, options.vertical))
     p, start = parameters(body, gravity), static_state(body, gravity)
     trajectory = integrate(UPLIFT, motion, p, start, ALL_CORNERS, gains=gains)
-    linear = integrate(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
-    repeat = integrate(UPLIFT_REPEAT, motion, p, start, ALL_CORNERS, gains=gains, keep_path=False, keep_events=False)
+    linear = repeat = trajectory
+    if trajectory.final[FIRST] > 0.0:
+        # without uplift the run is the linear one, in which round-off does not grow
+        linear = integrate(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
+        repeat = integrate(UPLIFT_REPEAT, motion, p, start, ALL_CORNERS, gains=gains, keep_path=False, keep_events=False)
     results = batch_result([body], end_states(trajectory), linear.extrema[np.newaxis], repeat.extrema[np.newaxis], gravity)
     return Response(
         model="uplift",

@@ -62,6 +62,11 @@ SOLVER = register(
         solve_rows=_solve_rows,
         row_options=("vertical",),
         threshold=_threshold,
+        describe="seisblock.models.uplift.describe:describe",
+        plot="seisblock.models.uplift.plot:figure",
+        animate="seisblock.models.uplift.animate:animate",
+        section="seisblock.models.uplift.describe:SECTION",
+        document="seisblock.models.uplift.document:DOCUMENT",
         topics=("uplift",),
     )
 )

@@ -22,6 +22,10 @@ _HEADER_LINES = 12
 _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
 _INTERVAL = re.compile(r"\bDT\s*=\s*([\d.]+(?:[ED][-+]?\d+)?)", re.IGNORECASE)
 _OLD_STYLE = re.compile(r"^\s*(\d+)\s+([\d.]+(?:E[-+]?\d+)?)\s+NPTS,\s*DT", re.IGNORECASE | re.MULTILINE)
+_SEED_DIRECTION = re.compile(r"[BHELS][HLN]([ENZ123])[._]?\d{0,2}", re.IGNORECASE)
+"""Direction of a broadband station: SEED code and location, ``BHZ.00``."""
+
+_SEED_NAME = re.compile(r"^(?P<before>.+\.[BHELS][HLN])(?P<code>[ENZ123])(?P<after>(?:\.\d\d)?)$", re.IGNORECASE)
 _FILE_NAME = re.compile(
     r"^(?P<base>.*?[^0-9_-])?[-_ ]*(?P<direction>\d{3}|UPDN|UP|DWN|DOWN|DN|VERT|VER|UD|NS|EW|V)(?:[-_](?:hor|ver|up|h|v)\w*)?$",
     re.IGNORECASE,
@@ -72,7 +76,8 @@ def parse_orientation(direction: str) -> tuple[str, float | None, float]:
     >>> parse_orientation("360"), parse_orientation("090"), parse_orientation("164"), parse_orientation("DWN"), parse_orientation("N21E")
     (('NS', 0.0, 1.0), ('EW', 90.0, 1.0), ('164', 164.0, 1.0), ('UD', None, -1.0), ('21', 21.0, 1.0))
     """
-    parsed_direction = parse_direction(direction)
+    seed = _SEED_DIRECTION.fullmatch(direction.strip())
+    parsed_direction = parse_direction(direction.strip()[:3] if seed else direction)
     if parsed_direction is None:
         return re.sub(r"[\s.]", "", direction.upper()) or "H1", None, 1.0
     return parsed_direction.code, parsed_direction.azimuth_deg, parsed_direction.sign
@@ -86,7 +91,11 @@ def split_direction(basename: str) -> tuple[str, str] | None:
     >>> split_direction("RSN1690_NORTH151_SYL360-hor2.AT2"), split_direction("I-ELC-UP.AT2"), split_direction("elcentro.at2")
     (('RSN1690_NORTH151_SYL', '360'), ('I-ELC', 'UP'), None)
     """
-    match = _FILE_NAME.match(re.sub(r"\.at2\Z", "", basename, flags=re.IGNORECASE))
+    stem = re.sub(r"\.at2\Z", "", basename, flags=re.IGNORECASE)
+    seed = _SEED_NAME.match(stem)
+    if seed is not None:
+        return f"{seed['before']}?{seed['after']}", stem[seed.start("code") - 2 : seed.end("code")]
+    match = _FILE_NAME.match(stem)
     if match is None or not match["base"]:
         return None
     return match["base"].rstrip("-_ "), match["direction"]
@@ -167,6 +176,7 @@ FORMAT = register(
         title="PEER AT2",
         parse=read_at2,
         matches=is_at2,
+        proves=("count", "unit", "instrument"),
         specificity=1,  # NPTS and DT may stand in any of the first lines
         synchronous=True,
         file_set=at2_file_set,

@@ -78,6 +78,10 @@ class _ChannelBlock(NamedTuple):
     data_line: int
 
 
+MAX_INTEGER_LINES = 100
+"""Most lines of an integer header."""
+
+
 def is_cosmos(head: bytes) -> bool:
     """Return whether bytes begin with a COSMOS title line (format version, number of text lines)."""
     return _TITLE_LINE.match(head) is not None
@@ -155,7 +159,19 @@ def _parse_values(name: str, lines: Sequence[str], line_index: int, kind: str) -
     if head is None or layout is None or head[2].lower() != kind.lower() or int(head[1][:6]) < 100:
         message = "expected number, lines and format of {kind}-header values, found {text!r}"
         raise line_error(message, name, line_index + 1, kind=kind, text=_line_text(lines, line_index))
+    if kind == "Integer":
+        # files exist whose integers lack a blank: whole numbers are told apart without columns
+        end = line_index + 1 + MAX_INTEGER_LINES
+        lines = [*lines[: line_index + 1], *(_align_integers(line, layout) for line in lines[line_index + 1 : end])]
     return parse_fixed_width(name, lines, line_index + 1, int(head[1][:6]), layout)
+
+
+def _align_integers(line: str, layout: tuple[int, int]) -> str:
+    """Return a line of integers in columns if it has as many as it should, else the line as it is."""
+    count, width = layout
+    cells = line.split()
+    is_shifted = len(line.rstrip()) != count * width and len(cells) == count and all(re.fullmatch(r"-?\d+", cell) for cell in cells)
+    return "".join(cell.rjust(width) for cell in cells) if is_shifted else line
 
 
 def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
@@ -241,5 +257,13 @@ def _recording_key(head: bytes) -> object:
 
 
 FORMAT = register(
-    Format(name="COSMOS", parse=read_cosmos, matches=is_cosmos, synchronous=True, file_set=seed_file_set, recording_key=_recording_key)
+    Format(
+        name="COSMOS",
+        parse=read_cosmos,
+        matches=is_cosmos,
+        proves=("count", "peak", "clock", "unit", "sign", "instrument"),
+        synchronous=True,
+        file_set=seed_file_set,
+        recording_key=_recording_key,
+    )
 )

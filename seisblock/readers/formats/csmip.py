@@ -2,8 +2,8 @@
 
 Layout found in files: volume 1 has 13 lines of text, 7 of integers and 7 of reals, volume 2 has 25, 7 and 13; then a line with count,
 interval, unit and format of the samples below it, in volume 2 also for velocities and displacements, which are skipped; then an end mark.
-Volume 1 of film records is unevenly sampled pairs of time and acceleration; these, volume 3 (spectra) and USC files raise an error that
-names them.
+Volume 1 of film records is pairs of time and acceleration: read as they are if even, else interpolated at 1 ms. Volume 3 (spectra)
+raises an error that names it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,9 @@ from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
 from seisblock.readers.table.headers import require_unit
 from seisblock.readers.table.parse import to_si
-from seisblock.records import QCFlag, Record
+from seisblock.readers.uneven import resample_pairs
+from seisblock.records import Component, QCFlag, Record
+from seisblock.records.qc import check_recorded
 from seisblock.records.site import UTC_OFFSETS
 
 _HEADERS = {1: 13 + 7 + 7, 2: 25 + 7 + 13}
@@ -38,9 +40,7 @@ _FORMS = {1: (8, 9), 2: (8, 10)}
 EVENT, ORIGIN, TRIGGER, STATION, NAME, CHANNEL, HYPOCENTRE = 1, 2, 3, 4, 5, 6, 8
 """Text line numbers in volume 1; in volume 2 one more."""
 
-_TITLE = re.compile(
-    rb"[ ]*(UNCORRECTED ACCELEROGRAM DATA|CORRECTED ACCELEROGRAM\b|RESPONSE AND FOURIER|FILE\s+\d+ OF UNCORRECTED)", re.IGNORECASE
-)
+_TITLE = re.compile(rb"[ ]*(UNCORRECTED ACCELEROGRAM DATA|CORRECTED ACCELEROGRAM\b|RESPONSE AND FOURIER)", re.IGNORECASE)
 _VOLUMES = {"UNC": 1, "COR": 2}
 _SECTION = re.compile(r"\s*(\d+)\s+(?:points of\s+)?(accel|veloc|displ)", re.IGNORECASE)
 _INTERVAL = re.compile(r"\bat\s+([\d.]+)\s*(sec|pts/sec)", re.IGNORECASE)
@@ -48,27 +48,40 @@ _UNIT = re.compile(r"(?:units?\s*(?:of|:)|\bin(?! units))\s*([a-z][a-z0-9/]*)", 
 _PEAKS = {1: r"\bmax\s*=\s*(-?[\d.]+)", 2: r"\bpeak acceleration\s*=\s*(-?[\d.]+)"}
 """Patterns of the header peak, by volume."""
 
-_END_MARK = re.compile(r"/&[\s-]*END OF DATA FOR CHANNEL\s+\S+\s+-{10}", re.IGNORECASE)
+_FILM_SLACK_S = 0.05
+"""Tolerance of the record length of uneven samples, s."""
+
+_END_MARK = re.compile(r"/&[\s-]*END OF DATA FOR (?:STATION )?CHANNEL\s+\S+\s+-{10}", re.IGNORECASE)
 _UNSUPPORTED = {
     "RES": N_("response spectra (volume 3): use volume 2 of the same record"),
-    "FIL": N_("uncorrected, unevenly sampled data in USC format: use the corrected volume 2 of the same record"),
 }
-_UNEVEN = N_("unevenly sampled pairs of time and acceleration (volume 1): use volume 2 of the same record (evenly sampled)")
+_PAIRS_PER_LINE, _TIME_RESOLUTION_S = 5, 1e-3
+"""Layout of pairs of time and acceleration."""
 
 
 class _Section(NamedTuple):
-    """Samples of one quantity: quantity, interval, unit, values, and index of the line after them."""
+    """Samples of one quantity: quantity, interval, unit, values, index of the line after them, count in the file, history entries.
+
+    `recorded` are uneven samples as recorded, `recorded_dt` is their mean interval.
+    """
 
     quantity: str
     dt: float
     unit: str
     values: FloatArray
     end: int
+    stated_count: int = 0
+    history: tuple[str, ...] = ()
+    recorded: FloatArray | None = None
+    recorded_dt: float = 0.0
 
 
 def is_csmip(head: bytes) -> bool:
     """Return whether bytes begin with the title of a CSMIP or USC file."""
     match = _TITLE.match(head)
+    # USC files have a format of their own
+    if re.match(rb"(?:[^\n]*\n)?[ ]*FILE\s+\d+ OF UNCORRECTED", head, re.IGNORECASE):
+        return False
     # GeoNet titles begin alike
     if match is None or b"GNS SCIENCE" in head[:200].upper():
         return False
@@ -87,6 +100,11 @@ def read_csmip(blob: RawFile) -> list[Record]:
     parts = parse_blocks(lines, lambda begin: _parse_channel(blob.name, lines, begin))
     if not _END_MARK.match(lines[-1].strip()):
         flag = qc_flag("end mark of the last channel missing: file probably truncated", "cut")
+        parts = [replace(part, doubts=(*part.doubts, flag)) for part in parts]
+    # a file that ends between two channels; files of one channel are whole
+    total = int(search_group(r"\((\d{1,3})\s+CHNS OF", " ".join(lines[:12])) or 0)
+    if 1 < len(parts) < total:
+        flag = qc_flag("{count} of {total} channels in the file: probably truncated", "cut", count=len(parts), total=total)
         parts = [replace(part, doubts=(*part.doubts, flag)) for part in parts]
     return split_by_location(parts)
 
@@ -119,7 +137,7 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
     match, interval, unit = _SECTION.match(text), _INTERVAL.search(text), _UNIT.search(text)
     # bare numbers instead of the data line: volume 1 of film records
     if match is None and volume == 1 and re.fullmatch(r"[\s\d.+-]+", text):
-        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNEVEN))
+        return _parse_pairs(name, lines, line_index)
     step = parse_number(interval[1]) if interval else None
     if match is None or interval is None or not step or unit is None:
         message = "expected a line with count, interval and unit of the samples, found {text!r}"
@@ -128,6 +146,20 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
     dt = step if interval[2].lower() == "sec" else 1.0 / step
     count, layout = parse_sample_count(name, line_index + 1, match[1]), parse_fortran_format(text) or _FORMS[volume]
     return _Section(match[2].lower(), dt, unit[1], *parse_fixed_width(name, lines, line_index + 1, count, layout))
+
+
+def _parse_pairs(name: str, lines: Sequence[str], line_index: int) -> _Section:
+    """Return the samples of pairs of time and acceleration from `line_index` on; count and unit stand in the text above."""
+    text = " ".join(lines[max(line_index - _HEADERS[1], 0) : line_index])
+    count = parse_sample_count(name, line_index, search_group(r"no\. of points\s*=\s*(\d+)", text))
+    unit = search_group(r"units of uncor accel are sec and\s+([a-z]+/?10)\b", text).lower()
+    if unit != "g/10":
+        raise line_error("expected samples in g/10, found {text!r}", name, line_index, text=unit)
+    width = round(len(lines[line_index].rstrip()) / (2 * _PAIRS_PER_LINE))
+    numbers, end = parse_fixed_width(name, lines, line_index, 2 * count, (2 * _PAIRS_PER_LINE, max(width, 1)))
+    _, dt, (tenths,), history = resample_pairs(name, numbers[::2], [numbers[1::2]], _TIME_RESOLUTION_S)
+    recorded = (numbers[1::2] / 10.0, float(numbers[-2] - numbers[0]) / (count - 1)) if history else ()
+    return _Section("accel", dt, "g", tenths / 10.0, end, count, history, *recorded)
 
 
 def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section: _Section) -> Record:
@@ -139,16 +171,30 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
         line = begin + 1 + line_shift + (STATION if station is None else CHANNEL)
         raise line_error("expected a station or a channel, found {text!r}", name, line, text=text[line - begin - 1].strip()[:60])
     direction = parse_direction(channel[2]) or Direction(channel[2].upper())
+    # files without a number have the coordinates in its place
+    code = "" if re.fullmatch(r"[\d.]+[NS],?", station[1]) else station[1]
     component, history = make_component(direction, to_si(section.values, unit), channel[2])
     start, _ = parse_datetime(text[TRIGGER + line_shift])
     metadata = {"unit": unit, "volume": f"V{volume}", **_metadata(text, line_shift)}
     metadata |= {"channels": {direction.code: channel[1]}} | drop_missing({"place": parse_location(channel[3])})
+    if section.history:
+        metadata["interpolated"] = True
     # without a trigger time, event and origin text identify the recording
     if start is None:
         metadata["event"] = " ".join(f"{text[EVENT + line_shift]} {text[ORIGIN + line_shift]}".split())
     flags = _qc_flags(direction.code, " ".join(text), section, volume)
+    if section.recorded is not None:
+        flags += check_recorded(Component(direction.code, to_si(section.recorded, unit)), section.recorded_dt)
     return Record(
-        (component,), section.dt, station[1], start, source=name, format=FORMAT.name, history=history, metadata=metadata, doubts=flags
+        (component,),
+        section.dt,
+        code,
+        start,
+        source=name,
+        format=FORMAT.name,
+        history=(*history, *section.history),
+        metadata=metadata,
+        doubts=flags,
     )
 
 
@@ -176,14 +222,30 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
 
 def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCFlag, ...]:
     """Return flags for peak, count and record length that differ from the header."""
-    size = section.values.size
+    size = section.stated_count or section.values.size
     peak_text = search_group(_PEAKS[volume], text)
     count = search_group(r"(?:no\. of points\s*=\s*|(?=\d+\s+points of instrument))(\d+)", text)
+    # film records are longer or shorter by parts of an uneven interval
+    slack = _FILM_SLACK_S if section.history else None
     return (
         *flag_peak_mismatch(code, peak_text, section.values, section.unit, half_last_digit(peak_text)),
         *flag_count(int(count[:12] or 0), size),
-        *flag_duration(search_group(r"record length\s*=\s*([\d.]+)", text), size, section.dt),
+        *flag_duration(search_group(r"record length\s*=\s*([\d.]+)", text), section.values.size, section.dt, slack),
     )
 
 
-FORMAT = register(Format(name="CSMIP", parse=read_csmip, matches=is_csmip, synchronous=True))
+def _is_spectra(head: bytes) -> bool:
+    match = _TITLE.match(head)
+    return match is not None and match[1][:3].upper() == b"RES"
+
+
+FORMAT = register(
+    Format(
+        name="CSMIP",
+        parse=read_csmip,
+        is_derived=_is_spectra,
+        matches=is_csmip,
+        proves=("count", "peak", "clock", "unit", "sign", "instrument"),
+        synchronous=True,
+    )
+)

@@ -216,6 +216,7 @@ FORMAT = register(
         title=N_("a plain table"),
         parse=read_plain_csv,
         matches_text=looks_like_csv,
+        proves=("unit",),
         specificity=0,
         options=("units", "dt"),
         plugin=False,

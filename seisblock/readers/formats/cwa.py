@@ -182,8 +182,8 @@ def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArra
         if len(stated_extremes) == 2 and all(abs(a - b) <= slack for a, b in zip(stated_extremes, sample_extremes, strict=True)):
             continue
         low, high = sample_extremes
-        message = "{component}: header range {told!r} differs from the range of the samples, {low:g} to {high:g} {unit}"
-        yield qc_flag(message, "header", direction.code, told=entry.value[:40], low=low, high=high, unit=unit)
+        message = "{component}: header range {stated!r} differs from the range of the samples, {low:g} to {high:g} {unit}"
+        yield qc_flag(message, "header", direction.code, stated=entry.value[:40], low=low, high=high, unit=unit)
 
 
 def _metadata(header: Mapping[str, _Entry]) -> dict[str, object]:
@@ -198,4 +198,6 @@ def _metadata(header: Mapping[str, _Entry]) -> dict[str, object]:
     )
 
 
-FORMAT = register(Format(name="CWA", parse=read_cwa, matches=is_cwa, aliases=("CWB",)))
+FORMAT = register(
+    Format(name="CWA", parse=read_cwa, matches=is_cwa, proves=("count", "peak", "clock", "unit", "sign", "instrument"), aliases=("CWB",))
+)

@@ -71,7 +71,9 @@ def read_esm(blob: RawFile) -> Record:
     direction = parse_direction(stream) or Direction(stream.upper() or "H1")
     component, history = make_component(direction, to_si(values, unit), stream)
     code, start = (_get_value(blob.name, header, key)[1] for key in ("STATION_CODE", "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS"))
-    metadata, flags = {"unit": unit, **_metadata(header)}, _qc_flags(direction.code, header, values, unit_text, dt)
+    metadata = {"unit": unit, **_metadata(header), "location": header.get("LOCATION", (0, ""))[1]}
+    metadata |= {"channels": {direction.code: stream.upper()}} if stream else {}
+    flags = _qc_flags(direction.code, header, values, unit_text, dt)
     # the last sample has fewer decimals than the previous one and no line end
     last, previous = lines[-1].strip(), lines[-2].strip()
     if last and len(last.partition(".")[2]) < len(previous.partition(".")[2]):
@@ -132,7 +134,8 @@ def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: floa
     key = next((key for key in header if key.startswith("PGA_")), "PGA_CM/S^2")
     peak_text, duration = header.get(key, (0, ""))[1], header.get("DURATION_S", (0, ""))[1]
     flags = flag_peak_mismatch(code, peak_text, values, unit, 2.0 * half_last_digit(peak_text))
-    return flags + flag_duration(duration, values.size, dt)
+    # some files leave the duration empty
+    return flags + (flag_duration(duration, values.size, dt) if duration else ())
 
 
 def _recording_key(head: bytes) -> object:
@@ -142,5 +145,13 @@ def _recording_key(head: bytes) -> object:
 
 
 FORMAT = register(
-    Format(name="ESM", parse=read_esm, matches=is_esm, synchronous=True, file_set=seed_file_set, recording_key=_recording_key)
+    Format(
+        name="ESM",
+        parse=read_esm,
+        matches=is_esm,
+        proves=("count", "peak", "unit", "sign", "instrument"),
+        synchronous=True,
+        file_set=seed_file_set,
+        recording_key=_recording_key,
+    )
 )

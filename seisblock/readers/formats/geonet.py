@@ -150,4 +150,13 @@ def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: fl
     )
 
 
-FORMAT = register(Format(name="GEONET", title="GeoNet", parse=read_geonet, matches=is_geonet, synchronous=True))
+FORMAT = register(
+    Format(
+        name="GEONET",
+        title="GeoNet",
+        parse=read_geonet,
+        matches=is_geonet,
+        proves=("count", "peak", "unit", "sign", "instrument"),
+        synchronous=True,
+    )
+)

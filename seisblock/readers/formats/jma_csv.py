@@ -151,4 +151,13 @@ def _parse_site(text: str) -> tuple[str, dict[str, object]]:
     return code or station_name, metadata
 
 
-FORMAT = register(Format(name="JMA-CSV", title=N_("JMA CSV"), parse=read_jma_csv, matches=is_jma_csv, aliases=("JMA", "JMACSV")))
+FORMAT = register(
+    Format(
+        name="JMA-CSV",
+        title=N_("JMA CSV"),
+        parse=read_jma_csv,
+        matches=is_jma_csv,
+        proves=("unit", "sign", "instrument"),
+        aliases=("JMA", "JMACSV"),
+    )
+)

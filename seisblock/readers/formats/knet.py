@@ -175,8 +175,8 @@ def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
         message = "{component}: header Max. Acc. {text!r} is not a number; peak of the samples not checked"
         return (qc_flag(message, "header", code, text=text[:20]),)
     if abs(peak - header_maximum) > _MAXIMUM_TOLERANCE:
-        message = "{component}: header Max. Acc. {told:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal"
-        return (qc_flag(message, "header", code, told=header_maximum, peak=peak),)
+        message = "{component}: header Max. Acc. {stated:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal"
+        return (qc_flag(message, "header", code, stated=header_maximum, peak=peak),)
     return ()
 
 
@@ -188,7 +188,12 @@ def _flag_name(basename: str, code: str, station: str) -> tuple[QCFlag, ...]:
     pairs = [(match["station"], station), (match["code"], code)]
     return tuple(
         qc_flag(
-            "{name}: file name ({named}) and header ({told}) disagree", "header", code, name=basename, named=file_value, told=header_value
+            "{name}: file name ({name_value}) and header ({header_value}) disagree",
+            "header",
+            code,
+            name=basename,
+            name_value=file_value,
+            header_value=header_value,
         )
         for file_value, header_value in pairs
         if file_value and header_value and file_value.upper() != header_value.upper()
@@ -235,6 +240,7 @@ FORMAT = register(
         title="K-NET/KiK-net",
         parse=read_knet,
         matches=is_knet,
+        proves=("count", "peak", "unit", "sign", "instrument"),
         aliases=(KIK_FORMAT, "K-NET", "KIK-NET"),
         plugin=False,  # obspy reads it itself
         file_set=knet_file_set,

@@ -139,4 +139,13 @@ def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
     return drop_missing(constants | {label: parse_number(text) for label, text in numbers.items()})
 
 
-FORMAT = register(Format(name="KNET-CSV", title="K-NET CSV", parse=read_knet_csv, matches=is_knet_csv, aliases=("KNETCSV",)))
+FORMAT = register(
+    Format(
+        name="KNET-CSV",
+        title="K-NET CSV",
+        parse=read_knet_csv,
+        matches=is_knet_csv,
+        proves=("count", "clock", "unit", "sign", "instrument"),
+        aliases=("KNETCSV",),
+    )
+)

@@ -186,4 +186,14 @@ def _recording_key(head: bytes) -> object:
     return lines[0].strip(), lines[3].split(), lines[5].lower().partition("component")[0].split(), lines[TEXT].split()[1:7]
 
 
-FORMAT = register(Format(name="SMC", parse=read_smc, matches=is_smc, synchronous=True, file_set=smc_file_set, recording_key=_recording_key))
+FORMAT = register(
+    Format(
+        name="SMC",
+        parse=read_smc,
+        matches=is_smc,
+        proves=("count", "peak", "unit", "sign", "instrument"),
+        synchronous=True,
+        file_set=smc_file_set,
+        recording_key=_recording_key,
+    )
+)

@@ -103,7 +103,11 @@ def _flag_interval(text: str, dt: float) -> Iterator[QCFlag]:
             value = parse_number(value_text)
             if value is not None and abs(value - actual) > _INTERVAL_TOLERANCE * actual:
                 yield qc_flag(
-                    "{told} {unit} in a comment differs from the sampling interval, {dt:g} s", "clock", told=value_text, unit=unit, dt=dt
+                    "{comment_value} {unit} in a comment differs from the sampling interval, {dt:g} s",
+                    "clock",
+                    comment_value=value_text,
+                    unit=unit,
+                    dt=dt,
                 )
 
 
@@ -113,5 +117,8 @@ def _flag_unit(text: str, columns: Sequence[Column]) -> Iterator[QCFlag]:
         unit = normalize_unit(unit_text.rstrip(".)"))
         if unit is not None and unit not in units:
             yield qc_flag(
-                "unit {told} in a comment differs from the unit of the columns, {units}", "header", told=unit, units=sorted(units)
+                "unit {comment_unit} in a comment differs from the unit of the columns, {units}",
+                "header",
+                comment_unit=unit,
+                units=sorted(units),
             )

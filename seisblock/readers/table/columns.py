@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import lazy_gettext
-from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.directions import Direction, parse_direction, parse_signed_direction, strip_component_words
 from seisblock.readers.table.headers import (
     TIME,
     classify_other_quantity,
@@ -23,6 +23,9 @@ from seisblock.readers.table.headers import (
     strip_name,
     time_unit_seconds,
 )
+
+_BRACKET = re.compile(r"[(\[（]\s*(?![\d.\s]*[)\]）])[^()\[\]（）]*[)\]）]")
+"""Text in brackets that is not a number."""
 
 ACCEPTED_NAMES = lazy_gettext(
     "a direction (NS, EW, UD; N10E or 10°; X, Y, Z; L, T, V; HNN, HNE, HNZ), time, or a name with an acceleration unit, as in 'table (gal)'"
@@ -90,6 +93,8 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
     final_columns = tuple(_apply_unit(name, names[column.index], column, default_unit, units) for column in columns)
     notes += [
         lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=names[c.index])
+        if c.code == "UD"
+        else lazy_gettext("sign of {name!r} reversed to {code}", name=names[c.index], code=c.code)
         for c in final_columns
         if c.sign < 0
     ]
@@ -118,6 +123,14 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
     if unit and inner_unit and inner_unit != unit:
         message = "{name}: two units, {inner} and {unit}, in column {written!r}; keep one"
         raise UnitError(message, name=name, written=heading, inner=inner_unit, unit=unit)
+    signed = parse_signed_direction(strip_component_words(split_unit(heading)[0] if unit else heading))
+    if signed is not None:
+        return _acceleration_column(index, heading, signed, unit or "")
+    if unit and _BRACKET.search(bare_heading) and parse_direction(_BRACKET.sub("", bare_heading)) is not None:
+        message = (
+            "{name}: {inner!r} in column {written!r} is neither a unit nor a direction: write the positive direction, as in 'UD (down)'"
+        )
+        raise RecordFormatError(message, name=name, inner=(_BRACKET.findall(bare_heading) or [""])[0], written=heading)
     if bare_heading.isdecimal() and parse_direction(bare_heading) is None:
         message = "{name}: column name {written!r} is not an azimuth: expected 0 to 360 degrees, or {understood}"
         raise RecordFormatError(message, name=name, written=heading, understood=ACCEPTED_NAMES)

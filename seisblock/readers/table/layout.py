@@ -82,6 +82,8 @@ class TableLayout:
 
 def looks_like_csv(lines: Sequence[str]) -> bool:
     """Return whether a text is a table of numbers or has a header with components or units."""
+    if lines and lines[0].lstrip("\ufeff ").startswith("<"):
+        return False  # XML, HTML
     body = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
     if body is None:
         return False
@@ -183,7 +185,10 @@ def _split_cells(line: str, separator: str | None) -> list[str]:
     if separator is None:
         return re.findall(r"\S+(?:\s*[(\[][^)\]]*[)\]])?", line)
     # a quoted name may contain the separator
-    cells = next(csv.reader([line.strip()], delimiter=separator)) if '"' in line else line.strip().split(separator)
+    try:
+        cells = next(csv.reader([line.strip()], delimiter=separator)) if '"' in line else line.strip().split(separator)
+    except csv.Error:  # a cell beyond the limit of the module: no table
+        cells = line.strip().split(separator)
     return [cell.strip().strip('"').strip() for cell in cells]
 
 

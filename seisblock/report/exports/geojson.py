@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from seisblock.report.io.atomic import atomic_write
+from seisblock.output.io.atomic import atomic_write
 from seisblock.studies.map.station_row import station_row
 from seisblock.studies.map.stations import Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison

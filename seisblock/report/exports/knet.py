@@ -10,8 +10,8 @@ import numpy as np
 
 from seisblock.core.errors import OutputError
 from seisblock.core.units import GAL
+from seisblock.output.io.atomic import make_folder, write_text
 from seisblock.records import Component, Record
-from seisblock.report.io.atomic import make_folder, write_text
 
 JAPAN = timezone(timedelta(hours=9))
 UNKNOWN_TIME = datetime(2000, 1, 1, tzinfo=JAPAN)

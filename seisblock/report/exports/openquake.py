@@ -11,14 +11,21 @@ from seisblock.core.errors import OutputError
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.report.exports.identifiers import ascii_identifiers
 from seisblock.studies.fragility.estimate import CLOUD
-from seisblock.studies.fragility.intensity import ARIAS, PGA, PGD, PGV, SA, IntensityMeasure
+from seisblock.studies.fragility.intensity import ARIAS, PGA, PGD, PGV, ROTD50, SA, IntensityMeasure
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy
 
 NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
 SHAPES = ("logncdf", "discrete")
 
-_IMTS = {PGA: ("PGA", STANDARD_GRAVITY), PGV: ("PGV", 0.01), PGD: ("PGD", 0.01), SA: ("SA", STANDARD_GRAVITY), ARIAS: ("IA", 1.0)}
+_IMTS = {
+    PGA: ("PGA", STANDARD_GRAVITY),
+    PGV: ("PGV", 0.01),
+    PGD: ("PGD", 0.01),
+    SA: ("SA", STANDARD_GRAVITY),
+    ROTD50: ("SA", STANDARD_GRAVITY),
+    ARIAS: ("IA", 1.0),
+}
 """OpenQuake name of each intensity measure, and its unit in SI (g, cm/s, cm, m/s)."""
 
 UPPER_PROBABILITY = 0.9999
@@ -34,7 +41,7 @@ def imt_of(measure: IntensityMeasure) -> tuple[str, float]:
         If OpenQuake has no such measure.
     """
     if measure.kind not in _IMTS:
-        raise OutputError("intensity measure {im} not supported by OpenQuake: use pga, pgv, pgd, sa or arias", im=measure.name)
+        raise OutputError("intensity measure {im} not supported by OpenQuake: use pga, pgv, pgd, sa, rotd50 or arias", im=measure.name)
     name, size = _IMTS[measure.kind]
     return (name if measure.period_s is None else f"{name}({measure.period_s:g})"), size
 

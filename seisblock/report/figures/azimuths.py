@@ -11,12 +11,12 @@ from matplotlib.patches import Patch
 
 from seisblock.core.i18n import gettext
 from seisblock.core.results import Response
-from seisblock.report.directions import direction_label
-from seisblock.report.figures import style
+from seisblock.output.directions import direction_label
+from seisblock.output.figures import style
+from seisblock.output.figures.heading import record_label, records_heading
+from seisblock.output.units_display import length_unit
 from seisblock.report.figures.body import style_rose
-from seisblock.report.figures.heading import record_label, records_heading
 from seisblock.report.figures.spectrum import OVERTURNED_COLOUR, ROCKED_COLOUR
-from seisblock.report.units_display import length_unit
 
 Directions = Sequence[Any]
 

@@ -16,7 +16,7 @@ from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.scan.scan import Scan
 from seisblock.core.i18n import gettext
 from seisblock.core.typing import FloatArray
-from seisblock.report.figures import style
+from seisblock.output.figures import style
 
 STEP_DEG = 1.0
 """Step of azimuth, degrees."""

@@ -10,15 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
-from seisblock.core.i18n import gettext
-from seisblock.core.units import GAL
+from seisblock.core.i18n import N_, gettext
+from seisblock.output.figures.heading import panel_label, records_heading
+from seisblock.output.figures.style import ACCENT, INPUT, SEPARATOR, add_legend, label_axes, new_figure, set_panel_title
+from seisblock.output.units_display import acceleration_unit
 from seisblock.records import Record
-from seisblock.report.figures.heading import panel_label, records_heading
-from seisblock.report.figures.style import ACCENT, INPUT, SEPARATOR, add_legend, label_axes, new_figure, set_panel_title
-from seisblock.report.units_display import acceleration_unit
-from seisblock.studies.survey.assessment import LARGER_COMPONENT, CemeteryRate, Reinforcement
-from seisblock.studies.survey.overturning_rate import FREQUENCIES, CurvePoint, overturning_rate, rate_curve
-from seisblock.validation.furukawa_surveys import SURVEYS, SurveyedRate
+from seisblock.studies.survey.assessment import EITHER_COMPONENT, LARGER_COMPONENT, CemeteryRate, Reinforcement
+from seisblock.studies.survey.overturning_rate import FREQUENCIES, CurvePoint
 
 LINES = (
     ("#08214a", "-"),
@@ -86,6 +84,7 @@ def overturn_rate_figure(
     cemetery: Cemetery,
     groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]],
     curve: Sequence[CurvePoint],
+    reinforced_curve: Sequence[CurvePoint] = (),
     *,
     gal: bool = True,
 ) -> Figure:
@@ -98,18 +97,27 @@ def overturn_rate_figure(
         Results of the components of records, or of given values; may be empty.
     curve : sequence of CurvePoint
         Curve drawn without results.
+    reinforced_curve : sequence of CurvePoint
+        The same with dowels, if any are compared.
     gal : bool
         Unit of accelerations, else m/s^2.
     """
     records = [record for record, _ in groups]
-    results = [(record, result) for record, record_results in groups for result in record_results if result.component != LARGER_COMPONENT]
+    combined_names = (LARGER_COMPONENT, EITHER_COMPONENT)
+    results = [(record, result) for record, record_results in groups for result in record_results if result.component not in combined_names]
     points = [(_point_label(record, result, records), result) for record, result in results]
     governing = max((result for _, result in points), key=lambda result: result.rate, default=None)
-    has_reinforced = governing is not None and governing.reinforced is not None
+    has_reinforced = bool(reinforced_curve) if governing is None else governing.reinforced is not None
     columns = 3 if has_reinforced else 2
     stones = gettext("{name}: {stones} stones", name=cemetery.name, stones=cemetery.size)
     title = SEPARATOR.join(part for part in (records_heading(records, [result.component or "" for _, result in results]), stones) if part)
-    figure, axes = new_figure(1, columns=columns, width=4.2 * columns + 1.2, height=3.9, title=title)
+    surveyed = next((rates[-1] for _, rates in groups if rates and rates[-1].contingency is not None), None)
+    rows = 1 if surveyed is None else 2
+    figure, axes = new_figure(rows, columns=columns, width=4.2 * columns + 1.2, height=0.3 + 3.6 * rows, title=title)
+    if surveyed is not None:
+        draw_stones(axes[columns], axes[columns + 1], surveyed, gal=gal)
+        for axis in axes[columns + 2 :]:
+            axis.set_visible(False)
     draw_slenderness(axes[0], cemetery, governing.threshold_ratio if governing else None)
     _draw_rates(axes[1], [(name, result, result) for name, result in points], governing, curve, gal=gal)
     if governing is not None and governing.reinforced is not None:
@@ -118,8 +126,39 @@ def overturn_rate_figure(
         set_panel_title(axes[1], gettext("as surveyed"))
         text = gettext("{stones} of {all} stones reinforced", stones=governing.reinforced.reinforced_stones, all=cemetery.size)
         set_panel_title(axes[2], text)
-    _add_side_legend(axes[-1])
+    elif has_reinforced:
+        _draw_rates(axes[2], [], None, reinforced_curve, gal=gal)
+        set_panel_title(axes[1], gettext("as surveyed"))
+        set_panel_title(axes[2], gettext("reinforced"))
+    _add_side_legend(axes[columns - 1])
     return figure
+
+
+OUTCOMES = (
+    (True, True, "o", ACCENT, ACCENT, N_("overturned as computed")),
+    (True, False, "^", "white", ACCENT, N_("computed only")),
+    (False, True, "v", "white", "black", N_("observed only")),
+    (False, False, "s", "0.75", "0.45", N_("neither")),
+)
+"""Computed and observed outcome, marker, face and edge colour, and label."""
+
+
+def draw_stones(left: Axes, right: Axes, result: CemeteryRate, *, gal: bool = True) -> None:
+    """Draw the H/B of each surveyed stone over its threshold, and its overturning probability over H/B, hits and misses apart."""
+    unit, name = acceleration_unit(gal=gal)
+    for computed, observed, marker, face, edge, text in OUTCOMES:
+        stones = [stone for stone in result.each_stone if (stone.overturns, stone.observed) == (computed, observed)]
+        ratios = [stone.height_m / stone.width_m for stone in stones]
+        style: dict[str, Any] = {"marker": marker, "facecolor": face, "edgecolor": edge, "s": 20, "linewidth": 0.8, "zorder": 3}
+        count = sum(stone.count for stone in stones)
+        left.scatter([stone.threshold_m_s2 / unit for stone in stones], ratios, label=f"{gettext(text)}: {count}", **style)
+        right.scatter(ratios, [stone.probability for stone in stones], **style)
+    left.axvline(result.pga_m_s2 / unit, color=INPUT, linewidth=0.9, linestyle=(0, (4, 2)), label="PGA")
+    label_axes(left, x=gettext("threshold of the stone ({unit})", unit=name), y=gettext("H/B"))
+    add_legend(left, loc="upper right", bbox_to_anchor=None, ncols=1)
+    right.axhline(0.5, color="0.6", linewidth=0.8)
+    right.set_ylim(-0.03, 1.03)
+    label_axes(right, x=gettext("H/B"), y=gettext("overturning probability (1)"))
 
 
 def _point_label(record: Record | None, result: CemeteryRate, records: Sequence[Record | None]) -> str:
@@ -161,51 +200,3 @@ def _draw_rates(
             label=f"{name}{result.equivalent_frequency_hz:.3g} Hz",
         )
     axis.set_xlim(left=0.0)  # last, since it disables autoscaling
-
-
-def figure_14(cemetery: Cemetery) -> Figure:
-    """Return the histogram and the cumulative distribution of H/B ([Furukawa2009]_ figs. 14, 15)."""
-    title = gettext("{name}: H/B of {stones} stones", name=cemetery.name, stones=cemetery.size)
-    figure, (axis,) = new_figure(1, width=6.0, height=3.8, title=title)
-    draw_slenderness(axis, cemetery)
-    return figure
-
-
-def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence[SurveyedRate] = ()) -> Figure:
-    """Return the rate curves: fig. 16, fig. 17 reinforced, and figs. 18, 19 with surveyed rates ([Furukawa2009]_).
-
-    Parameters
-    ----------
-    cemetery : Cemetery
-    reinforced : bool
-        All stones with dowels.
-    surveys : sequence of SurveyedRate
-        Surveyed rates; :data:`seisblock.validation.furukawa_surveys.SURVEYS` for figs. 18 and 19.
-    """
-    kind = gettext("reinforced") if reinforced else gettext("not reinforced")
-    figure, (axis,) = new_figure(1, width=7.2, height=4.4, title=f"{cemetery.name}, {kind}")
-    draw_rates(axis, rate_curve(cemetery.with_dowels() if reinforced else cemetery, FINE_PGA))
-    for index, survey in enumerate(surveys):
-        style: dict[str, Any] = {"marker": MARKERS[index % len(MARKERS)], "color": ACCENT, "s": 26, "zorder": 4}
-        axis.scatter([survey.pga / GAL], [survey.rate], label=f"{survey.name}, {survey.frequency:.2f} Hz", **style)
-    axis.set_xlim(left=0.0)
-    _add_side_legend(axis)
-    return figure
-
-
-def figure_20(cemetery: Cemetery, surveys: Sequence[SurveyedRate] = SURVEYS) -> Figure:
-    """Return the figure of surveyed against predicted rates, without and with dowels ([Furukawa2009]_ fig. 20)."""
-    title = gettext("Overturning rates: curves of {name} and surveys", name=cemetery.name)
-    figure, (axis,) = new_figure(1, width=4.8, height=4.6, title=title)
-    axis.plot([0, 1], [0, 1], color=INPUT, linewidth=0.9)
-    for index, survey in enumerate(surveys):
-        undowelled = overturning_rate(cemetery, survey.pga, survey.frequency).rate
-        dowelled = overturning_rate(cemetery.with_dowels(), survey.pga, survey.frequency).rate
-        marker = MARKERS[index % len(MARKERS)]
-        axis.plot([dowelled, undowelled], [survey.rate] * 2, color="0.8", linewidth=0.8, zorder=1)
-        axis.scatter([undowelled], [survey.rate], marker=marker, color=ACCENT, s=30, zorder=3, label=survey.name)
-        axis.scatter([dowelled], [survey.rate], marker=marker, facecolor="white", edgecolor="0.4", s=26, zorder=2)
-    axis.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), aspect="equal")
-    label_axes(axis, x=gettext("predicted rate (1); hollow: reinforced"), y=gettext("surveyed rate (1)"))
-    _add_side_legend(axis)
-    return figure

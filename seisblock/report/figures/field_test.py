@@ -5,9 +5,9 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.report.figures import style
+from seisblock.output.figures import style
+from seisblock.validation.furukawa import SURVEYS
 from seisblock.validation.furukawa_field import MODELS, SURVEYED_RATES, bias, rates, rms
-from seisblock.validation.furukawa_surveys import SURVEYS
 
 STYLES = {
     "eq-9": ("o", style.ACCENT, N_("eq. (9)")),

@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.core.i18n import N_, format_percent, gettext
-from seisblock.report.figures import style
-from seisblock.report.figures.log_ticks import round_ticks
-from seisblock.report.figures.style import ACCENT, INPUT, SECOND, add_figure_legend, add_legend, label_axes, set_panel_title
+from seisblock.output.figures import style
+from seisblock.output.figures.log_ticks import round_ticks
+from seisblock.output.figures.style import ACCENT, INPUT, SECOND, add_figure_legend, add_legend, label_axes, set_panel_title
+from seisblock.output.units_display import acceleration_unit
 from seisblock.report.text.fit import NAMES
-from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.fit.dataset import FELL, MOVED
 from seisblock.studies.fit.fit import BlockFit
 from seisblock.studies.fit.priors import Prior

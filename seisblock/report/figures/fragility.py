@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from seisblock.core.i18n import format_percent, gettext
-from seisblock.report.figures.log_ticks import round_ticks
-from seisblock.report.figures.style import ACCENT, INPUT, SECOND, StyledFigure, add_legend, label_axes, new_figure, set_panel_title
+from seisblock.output.figures.log_ticks import round_ticks
+from seisblock.output.figures.style import ACCENT, INPUT, SECOND, StyledFigure, add_legend, label_axes, new_figure, set_panel_title
 from seisblock.report.text.fragility import limit_label
 from seisblock.studies.fragility.estimate import CLOUD
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -46,7 +46,7 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
     width = 6.4 if columns == 1 else 4.2 * columns
     fig, axes = new_figure(rows, columns=columns, width=width, height=0.8 + 2.9 * rows, title=title, sharex=False, sharey=True)
     size, unit = study.measure.display_unit(gal=gal)
-    name = f"{study.measure.label} ({unit})" if unit else study.measure.label
+    name = f"{gettext(study.measure.label)} ({unit})" if unit else gettext(study.measure.label)
     for index, axis in enumerate(axes):
         if index >= len(bodies):
             axis.set_visible(False)

@@ -13,16 +13,18 @@ from matplotlib.figure import Figure
 
 from seisblock.core.i18n import format_percent, gettext
 from seisblock.core.typing import FloatArray
+from seisblock.output.figures.heading import panel_label, records_heading
+from seisblock.output.figures.log_ticks import round_ticks
+from seisblock.output.figures.style import ACCENT, INPUT, SECOND, add_legend, draw_thresholds, label_axes, new_figure, set_panel_title
+from seisblock.output.units_display import acceleration_unit, length_unit
 from seisblock.records import Record
-from seisblock.report.figures.heading import panel_label, records_heading
-from seisblock.report.figures.style import ACCENT, INPUT, SECOND, add_legend, draw_thresholds, label_axes, new_figure, set_panel_title
-from seisblock.report.units_display import acceleration_unit, length_unit
 from seisblock.studies.survey.assumptions import Assumptions
 from seisblock.studies.survey.estimate import ShakingEstimate, frequency_contour
 from seisblock.studies.survey.likelihood import Survey
 
 if TYPE_CHECKING:
     from seisblock.studies.survey.scale_search import ScaleFactors
+from seisblock.studies.survey.twist import TwistEstimate
 
 LEVELS = (0.5, 0.9)
 """Probability content of the bands at each frequency."""
@@ -136,6 +138,35 @@ def factor_figure(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool =
         axis.axvline(1.0, color=INPUT, linewidth=0.8, linestyle=(0, (1, 2)), label=gettext("unscaled record"))
         set_panel_title(axis, panel_label(record, result.component, records))
         label_axes(axis, y=gettext("x ({unit})", unit=disp_unit.name))
+        add_legend(axis)
+    label_axes(axes[-1], x=gettext("scale factor (1)"))
+    return figure
+
+
+def twist_figure(results: Sequence[tuple[Record, TwistEstimate]], *, gal: bool = True) -> Figure:
+    """Return the figure: twist of all runs over the scale factor, with the observed twist and the interval, a panel per record."""
+    records = [record for record, _ in results]
+    title = records_heading(records, [estimate.component for _, estimate in results])
+    figure, axes = new_figure(len(results), height=1.4 + 2.3 * len(results), title=title)
+    for axis, (record, estimate) in zip(axes, results, strict=True):
+        if estimate.scale is not None:
+            text = gettext("interval of the factor") + f" {estimate.scale.low:.2f}-{estimate.scale.high:.2f}"
+            axis.axvspan(estimate.scale.low, estimate.scale.high, color=ACCENT, alpha=0.15, linewidth=0.0, label=text)
+            axis.axvline(estimate.scale.median, color=ACCENT, linewidth=1.0, label=gettext("median"))
+        standing = [run for run in estimate.sample if not run.overturned]
+        sizes = [5.0 + 35.0 * run.weight for run in standing]
+        twists = [abs(run.twist_deg) for run in standing]
+        label = gettext("did not overturn (size: agreement)")
+        axis.scatter([run.scale for run in standing], twists, s=sizes, color=SECOND, linewidths=0.0, alpha=0.8, label=label)
+        top = 1.25 * max(*twists, estimate.twist_deg, 1.0)
+        fallen = [run.scale for run in estimate.sample if run.overturned]
+        if fallen:
+            axis.plot(fallen, [0.97 * top] * len(fallen), "x", color=INPUT, markersize=3.5, label=gettext("overturned"))
+        draw_thresholds(axis, [estimate.twist_deg], gettext("observed"))
+        axis.set(xscale="log", ylim=(0.0, top))
+        round_ticks(axis.xaxis)
+        set_panel_title(axis, panel_label(record, estimate.component, records))
+        label_axes(axis, y=gettext("twist (deg)"))
         add_legend(axis)
     label_axes(axes[-1], x=gettext("scale factor (1)"))
     return figure

@@ -9,13 +9,13 @@ from seisblock.core.i18n import gettext
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.measures import ResponseSpectrum
+from seisblock.output.directions import direction_label, transverse_component
+from seisblock.output.figures import style
+from seisblock.output.figures.curves import draw_curve
+from seisblock.output.figures.heading import heading, motions_heading
+from seisblock.output.units_display import acceleration_unit
 from seisblock.records import Motion, Record
-from seisblock.report.directions import direction_label, transverse_component
-from seisblock.report.figures import style
-from seisblock.report.figures.curves import draw_curve
-from seisblock.report.figures.heading import heading, motions_heading
 from seisblock.report.figures.spectrum import figure as spectrum_figure
-from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.rocking.spectrum import RockingSpectrum
 
 

@@ -13,13 +13,13 @@ from seisblock.core.typing import FloatArray
 from seisblock.measures import RecordMeasures, fourier_amplitude, response_spectrum
 from seisblock.measures.spectra import DAMPING
 from seisblock.measures.summary import velocity_history
+from seisblock.output.figures.curves import decimate, draw_curve, in_view, insert_crossings
+from seisblock.output.figures.heading import heading
+from seisblock.output.figures.style import ACCENT, INPUT, SEPARATOR, add_legend, draw_thresholds, label_axes, style_axes, titled_figure
+from seisblock.output.figures.time_histories import history_columns, strong_interval
+from seisblock.output.units_display import acceleration_unit, velocity_unit
 from seisblock.records import Component, Motion, Record
 from seisblock.records.process import select_component
-from seisblock.report.figures.curves import decimate, draw_curve, in_view, insert_crossings
-from seisblock.report.figures.heading import heading
-from seisblock.report.figures.style import ACCENT, INPUT, SEPARATOR, add_legend, draw_thresholds, label_axes, style_axes, titled_figure
-from seisblock.report.figures.time_histories import history_columns, strong_interval
-from seisblock.report.units_display import acceleration_unit, velocity_unit
 
 LINES = (("0.1", "-"), ("#1f5a8c", (0, (5, 1.5))), ("#b5651d", (0, (1.2, 1.2))), ("0.55", "-"))
 """Colour and dashes of the components in the spectra, distinct in greyscale."""

@@ -14,27 +14,27 @@ from matplotlib.patheffects import withStroke
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.typing import FloatArray
-from seisblock.models.respond.describe import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
-from seisblock.report.figures import style
-from seisblock.report.figures.heading import motions_heading, panel_labels
+from seisblock.criteria.initiation import Mode
+from seisblock.output.figures import style
+from seisblock.output.figures.heading import motions_heading, panel_labels
 from seisblock.report.figures.spectrum import cell_edges, log_cell_edges, style_size_axis
 from seisblock.report.text.mode_map import Maps, rows_are_sizes
 from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, NO_ANSWER, ModeMap
 
 COLOURS = {
-    REST: "#f6f6f2",
-    SLIDE: "#b9d6e8",
-    ROCK: "#dd9d2c",
-    SLIDE_ROCK: "#a270a0",
-    FLIGHT: "#176a64",
-    OVERTURNED: "#6b1f23",
+    Mode.REST: "#f6f6f2",
+    Mode.SLIDE: "#b9d6e8",
+    Mode.ROCK: "#dd9d2c",
+    Mode.SLIDE_ROCK: "#a270a0",
+    Mode.FLIGHT: "#176a64",
+    Mode.OVERTURNED: "#6b1f23",
     NO_ANSWER: "#ffffff",
 }
 """Colours from light (rest) to dark (overturning), distinct in greyscale and for colour-blind readers."""
 
 NAMES = {
-    REST: N_("rest"), SLIDE: N_("sliding"), ROCK: N_("rocking"), SLIDE_ROCK: N_("slide-rocking"),
-    FLIGHT: N_("flight"), OVERTURNED: N_("overturning"), NO_ANSWER: N_("no result"),
+    Mode.REST: N_("rest"), Mode.SLIDE: N_("sliding"), Mode.ROCK: N_("rocking"), Mode.SLIDE_ROCK: N_("slide-rocking"),
+    Mode.FLIGHT: N_("flight"), Mode.OVERTURNED: N_("overturning"), NO_ANSWER: N_("no result"),
 }  # fmt: skip
 """Labels of the modes."""
 
@@ -136,7 +136,7 @@ def _label_regions(axis: Axes, mode_map: ModeMap, x: FloatArray, y: FloatArray) 
         room = distance_transform_edt(inside, sampling=(1.0 / rows, 1.0 / columns))[1:-1, 1:-1]
         i, j = np.unravel_index(int(np.argmax(room)), room.shape)
         if room[i, j] >= MIN_LABEL_ROOM:
-            dark = MODES_BY_SEVERITY[index] in (FLIGHT, OVERTURNED)
+            dark = MODES_BY_SEVERITY[index] in (Mode.FLIGHT, Mode.OVERTURNED)
             middle = math.sqrt(y[i] * y[i + 1]) if rows_are_sizes(mode_map) else 0.5 * (y[i] + y[i + 1])
             axis.text(
                 0.5 * (x[j] + x[j + 1]),

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.core.i18n import gettext
-from seisblock.report.figures.log_ticks import round_ticks
-from seisblock.report.figures.style import ACCENT, INPUT, SECOND, add_figure_legend, add_legend, label_axes, new_figure
+from seisblock.output.figures.log_ticks import round_ticks
+from seisblock.output.figures.style import ACCENT, INPUT, SECOND, add_figure_legend, add_legend, label_axes, new_figure
+from seisblock.output.text.wrap import display_width
 from seisblock.report.text.risk import risk_label
-from seisblock.report.text.wrap import display_width
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.hazard.curve import Hazard
@@ -60,20 +60,22 @@ def figure(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, *, gal:
     names = [risk_label(fragility, gal=gal) or gettext("fragility") for fragility, _ in risks]
     outside = sum(display_width(name) + LINE_SAMPLE_COLUMNS for name in names) > MAX_LEGEND_COLUMNS
     name_text = names[0] if len(risks) == 1 else gettext("{count} fragility curves", count=len(risks))
-    title = gettext("Risk: {what}; hazard in {measure}", what=name_text, measure=measure.label)
+    title = gettext("Risk: {what}; hazard in {measure}", what=name_text, measure=gettext(measure.label))
     fig, (hazard_axes, middle, density_axes) = new_figure(
         3, width=6.4, height=7.4 + (LEGEND_ROW_HEIGHT * len(risks) if outside else 0.0), title=title
     )
     x = _intensity_range(risks, hazard)
     _draw_hazard(hazard_axes, hazard, x, size)
     for index, (fragility, risk) in enumerate(risks):
-        colour, dashes = _line_style(index)
+        colour, dashes = COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
         middle.plot(x / size, fragility.curve.probability(x), color=colour, linestyle=dashes, linewidth=1.4, label=names[index])
         _draw_density(density_axes, risk, size, look=(colour, dashes), fill=not outside)
     density_axes.set_xscale("log")
     label_axes(hazard_axes, y=gettext("exceedance (1/year)"))
     label_axes(middle, y=gettext("probability (1)"))
-    label_axes(density_axes, x=f"{measure.label} ({unit})" if unit else measure.label, y=gettext("rate per decade (1/year)"))
+    label_axes(
+        density_axes, x=f"{gettext(measure.label)} ({unit})" if unit else gettext(measure.label), y=gettext("rate per decade (1/year)")
+    )
     middle.set_ylim(-0.02, 1.02)
     density_axes.set_ylim(bottom=0.0)
     round_ticks(density_axes.xaxis)
@@ -83,11 +85,6 @@ def figure(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, *, gal:
     else:
         add_legend(middle)
     return fig
-
-
-def _line_style(index: int) -> tuple[str, Any]:
-    """Return colour and dashes of a fragility curve."""
-    return COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
 
 
 def _intensity_range(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard) -> np.ndarray:

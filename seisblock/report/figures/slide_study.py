@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.criteria.sliding import min_friction_to_hold, min_friction_to_stop
+from seisblock.output.figures import style
+from seisblock.output.figures.heading import panel_label, records_heading
+from seisblock.output.units_display import Unit, length_unit
 from seisblock.records import Record, motion_of
-from seisblock.report.figures import style
-from seisblock.report.figures.heading import panel_label, records_heading
 from seisblock.report.text.slide_study import MIN_PLANE_SIZE, SYMBOLS, Arrangement, Points, group_by_direction, plotted_value
-from seisblock.report.units_display import Unit, length_unit
 
 SLIP_LABEL = N_("max. sliding displacement ({unit})")
 MIN_SHADE, MAX_SHADE = 1e-4, 10.0
@@ -87,7 +87,7 @@ def _draw_curves(axis: Any, points: Points, slope_length: float | None, disp_uni
         x = [getattr(point, arrangement.x) for point in curve_points]
         y = [plotted_value(point, ratio) / (1.0 if ratio else disp_unit.size) for point in curve_points]
         share = index / max(len(names) - 1, 1)
-        colour = style.ACCENT if len(names) == 1 else _shade_colour(share)
+        colour = style.ACCENT if len(names) == 1 else colormaps["plasma"](0.85 * share)
         marker = "os^Dvx"[index % 6] if len(x) <= 60 else ""
         axis.plot(x, y, color=colour, linewidth=1.1, marker=marker, markersize=3.5, label=name or None)
     if ratio:
@@ -102,11 +102,6 @@ def _draw_curves(axis: Any, points: Points, slope_length: float | None, disp_uni
         )
     style.label_axes(axis, x=gettext(SYMBOLS[arrangement.x]), y="β (1)" if ratio else gettext(SLIP_LABEL, unit=disp_unit.name))
     style.add_legend(axis, loc="best", bbox_to_anchor=None, borderaxespad=0.5, ncols=1 if len(names) < 6 else 2)
-
-
-def _shade_colour(share: float) -> Any:
-    """Return a colour that is distinct in greyscale."""
-    return colormaps["plasma"](0.85 * share)
 
 
 def _draw_plane(axis: Any, points: Points, disp_unit: Unit) -> None:

@@ -6,11 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from seisblock.core.i18n import gettext
-from seisblock.report.figures import style
-from seisblock.report.figures.heading import motions_heading, panel_labels
-from seisblock.report.figures.log_ticks import round_ticks
+from seisblock.output.figures import style
+from seisblock.output.figures.heading import motions_heading, panel_labels
+from seisblock.output.figures.log_ticks import round_ticks
+from seisblock.output.units_display import length_unit
 from seisblock.report.text.sliding_spectrum import Curves
-from seisblock.report.units_display import length_unit
 
 
 def figure(curves: Curves) -> Figure:

@@ -13,8 +13,8 @@ from matplotlib.patches import Patch
 
 from seisblock.core.i18n import gettext
 from seisblock.core.typing import FloatArray
-from seisblock.report.figures import style
-from seisblock.report.figures.heading import motions_heading, panel_labels
+from seisblock.output.figures import style
+from seisblock.output.figures.heading import motions_heading, panel_labels
 from seisblock.report.text.spectrum import Spectra
 
 DASHES = (0, (6, 2, 1, 2))

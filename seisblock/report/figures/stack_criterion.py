@@ -6,9 +6,9 @@ from matplotlib.figure import Figure
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.criteria.gravestones import furukawa_fit, overturning_level
-from seisblock.report.figures import style
+from seisblock.output.figures import style
+from seisblock.output.units_display import acceleration_unit
 from seisblock.report.text.stack_criterion import ScaledRecords
-from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.gravestone_criterion import CriterionStudy, study_frequencies
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")

@@ -9,25 +9,23 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.colors import LinearSegmentedColormap, Normalize, to_hex
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.typing import FloatArray
+from seisblock.output.figures import style
+from seisblock.output.units_display import acceleration_unit
 from seisblock.records.site import EARTH_RADIUS_KM, great_circle_km, unwrap_longitude
 from seisblock.report.coastline import coastlines
-from seisblock.report.figures import style
 from seisblock.report.figures.label_placement import Box, Place, place_labels
-from seisblock.report.text.map import EVENT_WORDS
-from seisblock.report.units_display import acceleration_unit
+from seisblock.report.figures.probability import SHADES
+from seisblock.report.text.map import EVENT_WORDS, preparation_texts
 from seisblock.studies.map.station_response import StationBody, StationModel
 from seisblock.studies.map.stations import StationReport, Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison
-
-SHADES = LinearSegmentedColormap.from_list("stations", ["#f3efe6", "#e9b872", "#c0392b", "#3d0c11"])
-"""Colour map from no overturning (light) to overturning (dark), monotonic in greyscale."""
 
 COAST = "#5b7f95"
 
@@ -35,7 +33,7 @@ MAX_NAMES = 5
 """Labelled stations, in order of severity, and labelled surveyed places, at most."""
 
 EDGE, RIM = ("0.25", 0.5), ("black", 1.5)
-"""Colour and width of the rim of a station, and of one with overturning of the nominal body."""
+"""Colour and width of the rim of a station, and of one at which the body likely overturns."""
 
 HALO = [withStroke(linewidth=2.0, foreground="white")]
 KM_PER_DEGREE = EARTH_RADIUS_KM * math.pi / 180.0
@@ -89,7 +87,7 @@ def figure(stations: Stations, model: StationModel | None, *, gal: bool = True, 
     values, label, max_value = colour_values(stations, model, gal=gal)
     places = np.array([map_position(stations, answer.longitude, answer.latitude) for answer in stations.mapped])
     order = np.arange(len(places))[::-1]  # most severe on top
-    rims = [RIM if answer.effect.overturns_nominally else EDGE for answer in stations.mapped[::-1]]
+    rims = [RIM if answer.effect.likely_overturns else EDGE for answer in stations.mapped[::-1]]
     points = axis.scatter(
         places[order, 0],
         places[order, 1],
@@ -171,8 +169,8 @@ def colour_values(stations: Stations, model: StationModel | None, *, gal: bool) 
         return values, f"PGA ({unit.name})", float(values.max()) or 1.0
     if isinstance(model, StationBody):
         name = gettext("overturning probability (1)") if model.runs else gettext(EVENT_WORDS.get(model.event, N_("event")))
-        if any(answer.effect.overturns_nominally for answer in stations.mapped):
-            name = gettext("overturning probability (1); thick rim: nominal body overturned")
+        if any(answer.effect.likely_overturns for answer in stations.mapped):
+            name = gettext("overturning probability (1); thick rim: likely overturns")
         return np.array([_overturned_share(answer) for answer in stations.mapped]), name, 1.0
     return np.array([answer.effect.rate or 0.0 for answer in stations.mapped]), gettext("overturning rate (1)"), 1.0
 
@@ -192,21 +190,6 @@ def survey_value(answer: SurveyComparison, model: StationModel | None, *, gal: b
     return next((pga for pga in pga_values if pga is not None), 0.0) / acceleration_unit(gal=gal).size
 
 
-def share_colour(share: float) -> str:
-    """Return the colour of a fraction of the scale as a hex string.
-
-    Parameters
-    ----------
-    share : float, 1
-
-    Examples
-    --------
-    >>> share_colour(0.0)
-    '#f3efe6'
-    """
-    return to_hex(SHADES(min(max(share, 0.0), 1.0)))
-
-
 def _overturned_share(answer: StationReport) -> float:
     """Return the overturning probability at a station, or 0 or 1 without samples."""
     effect = answer.effect
@@ -214,7 +197,7 @@ def _overturned_share(answer: StationReport) -> float:
 
 
 def map_title(stations: Stations, model: StationModel | None, *, between: str = style.SEPARATOR) -> str:
-    """Return the title: magnitude, name and time of the earthquake, and the body.
+    """Return the title: magnitude, name and time of the earthquake, the body, and the scaling of the records.
 
     Parameters
     ----------
@@ -229,6 +212,7 @@ def map_title(stations: Stations, model: StationModel | None, *, between: str = 
         parts += [f"M {earthquake.magnitude:.2g}"] if earthquake.magnitude else []
         parts += [earthquake.name, stations.origin_told]
     parts += [gettext(model.name)] if model is not None else []
+    parts += [gettext(text) for text in preparation_texts(stations.preparation)]
     return between.join(part for part in parts if part)
 
 

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.report.figures import style
-from seisblock.report.figures.uplift import COLOURS, LIFTED_COLOUR
+from seisblock.models.uplift.plot import COLOURS, LIFTED_COLOUR
+from seisblock.output.figures import style
 from seisblock.report.text.uplift_harmonic import SYMBOLS, region_title, varied_names
 from seisblock.studies.uplift_regions import UpliftRegion, modal_frequencies_against
 
@@ -21,17 +21,19 @@ GROUPS = (N_("first rocking"), N_("second rocking"), N_("vertical"), N_("torsion
 """Prefixes of the names of modes."""
 
 
-def harmonic_figure(regions: Sequence[UpliftRegion], figure: int | None = None) -> Figure:
-    """Return the uplift regions and natural frequencies, or a single figure of [Okumura1987]_."""
+def harmonic_figure(regions: Sequence[UpliftRegion], figure: int | None = None, *, title: str = "") -> Figure:
+    """Return the uplift regions and natural frequencies, or a single figure of [Okumura1987]_, by default titled by its number."""
     if figure in (3, 4):
-        fig, (panel,) = style.new_figure(1, width=6.5, height=5.0)
+        fig, (panel,) = style.new_figure(1, width=6.5, height=5.0, title=title)
         _draw_frequencies(panel, regions, "beta" if figure == 3 else "alpha")
-        panel.set_title(gettext("as fig. {number}", number=figure), fontsize=9, loc="left")
+        if not title:
+            panel.set_title(gettext("as fig. {number}", number=figure), fontsize=9, loc="left")
         return fig
     if figure is not None:
-        fig, (panel,) = style.new_figure(1, width=7.5, height=5.0)
+        fig, (panel,) = style.new_figure(1, width=7.5, height=5.0, title=title)
         _draw_regions(panel, regions)
-        panel.set_title(gettext("as fig. {number}: {what}", number=figure, what=panel.get_title(loc="left")), fontsize=9, loc="left")
+        if not title:
+            panel.set_title(gettext("as fig. {number}: {what}", number=figure, what=panel.get_title(loc="left")), fontsize=9, loc="left")
         return fig
     fig, panels = style.new_figure(1, columns=3, width=15.0, height=4.8, sharex=False, gridspec_kw={"width_ratios": [1.7, 1, 1]})
     _draw_regions(panels[0], regions)

@@ -9,12 +9,65 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.output.figures.svg import Picture
+from seisblock.output.templating import render_page
 from seisblock.references import REFERENCES
-from seisblock.report.figures.svg import Picture
-from seisblock.report.html.unicode_math import typeset_formulas
-from seisblock.report.templating import render_page
 from seisblock.report.text.validate import KINDS, explanation, format_short, quantity_label, unit_label, verdict_counts_text
 from seisblock.validation.case import EVIDENCE_KINDS, VERDICTS, CaseResult, count_verdicts, count_verdicts_by_kind, sort_by_verdict
+
+_GREEK = dict(
+    zip(
+        [
+            "alpha",
+            "beta",
+            "gamma",
+            "delta",
+            "epsilon",
+            "zeta",
+            "eta",
+            "theta",
+            "kappa",
+            "lambda",
+            "mu",
+            "nu",
+            "xi",
+            "pi",
+            "rho",
+            "sigma",
+            "tau",
+            "phi",
+            "psi",
+            "omega",
+        ],
+        "αβγδεζηθκλμνξπρστφψω",
+        strict=True,
+    )
+)
+_LETTER = re.compile(rf"(?<![A-Za-z])({'|'.join(_GREEK)})(?![A-Za-z])")
+_TIMES_PI = re.compile(r"(?<=\d) (?=π)")
+_POWER = re.compile(r"(?<=[\w)\]])\^(-?\d+)(?![\d.])")
+_INDEX = re.compile(r"(?<=[A-Za-zα-ω'])_(\d+)(?![\w.])")
+_THETA_0 = re.compile(r"(?<=[α-ω])(\d)(?![\w.])")
+_SYMBOLS = {"<=": "≤", ">=": "≥", "+/-": "±", "-/+": "∓", "sqrt(": "√("}
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def typeset_formulas(text: str) -> str:
+    """Replace names of Greek letters, roots, powers, indices and relations in a text by Unicode characters.
+
+    Examples
+    --------
+    >>> typeset_formulas("omega_1/omega_V <= sqrt(3), m/s^2"), typeset_formulas("2 pi theta0 of the mu_s that alphabets print, 1e-4 s")
+    ('ω₁/ω_V ≤ √(3), m/s²', '2π θ₀ of the μ_s that alphabets print, 1e-4 s')
+    """
+    for source, symbol in _SYMBOLS.items():
+        text = text.replace(source, symbol)
+    text = _LETTER.sub(lambda match: _GREEK[match[1]], text)
+    text = _TIMES_PI.sub("", text)
+    text = _POWER.sub(lambda match: match[1].translate(_SUPERSCRIPTS), text)
+    return _THETA_0.sub(lambda match: match[1].translate(_SUBSCRIPTS), _INDEX.sub(lambda match: match[1].translate(_SUBSCRIPTS), text))
+
 
 FIELD_TEST = "furukawa-field-worn"
 """Prefix of the keys of the field-test cases, whose place gets the field-test figure."""
@@ -158,9 +211,9 @@ def _place_section(place: str, results: Sequence[CaseResult]) -> dict[str, Any]:
 
 
 def _field_test() -> Picture:
+    from seisblock.output.figures.fonts import build_localized
+    from seisblock.output.figures.svg import embed_figure
     from seisblock.report.figures.field_test import figure
-    from seisblock.report.figures.fonts import build_localized
-    from seisblock.report.figures.svg import embed_figure
 
     caption = gettext("Overturning rates of gravestones around six stations, western Tottori earthquake 2000: survey and models.")
     return embed_figure(build_localized(figure), caption)

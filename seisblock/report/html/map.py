@@ -8,10 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.core.i18n import gettext
+from seisblock.core.i18n import gettext, join_list
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import GAL
+from seisblock.output.templating import render_page
+from seisblock.output.text.record_info import describe_earthquake
+from seisblock.output.units_display import acceleration_unit
 from seisblock.report.coastline import coastlines
+from seisblock.report.figures.probability import share_colour
 from seisblock.report.figures.stations import (
     KM_PER_DEGREE,
     colour_values,
@@ -19,13 +23,9 @@ from seisblock.report.figures.stations import (
     map_extent_points,
     map_position,
     map_title,
-    share_colour,
     survey_value,
 )
-from seisblock.report.templating import render_page
-from seisblock.report.text.map import station_rows, survey_rows, verdict
-from seisblock.report.text.record_info import describe_earthquake
-from seisblock.report.units_display import acceleration_unit
+from seisblock.report.text.map import preparation_texts, station_rows, survey_rows, verdict
 from seisblock.studies.map.station_response import StationModel
 from seisblock.studies.map.stations import StationReport, Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison, contradictions
@@ -84,6 +84,7 @@ def map_page(stations: Stations, model: StationModel | None, *, gal: bool = True
         map_title(stations, model, between=" · ") or gettext("Stations"),
         subtitles=[describe_earthquake(earthquake, stations.origin_told)] if earthquake else [],
         lead=verdict(stations, model),
+        processed=join_list(gettext(text) for text in preparation_texts(stations.preparation)),
         data={
             "points": points,
             "squares": squares,
@@ -105,14 +106,9 @@ def map_page(stations: Stations, model: StationModel | None, *, gal: bool = True
 
 def _map_centre(stations: Stations) -> tuple[float, float]:
     """Return the centre of the stations, degrees east and north."""
-    places = _station_positions(stations) or [(0.0, 0.0)]
+    places = [map_position(stations, answer.longitude, answer.latitude) for answer in stations.mapped] or [(0.0, 0.0)]
     east, north = zip(*places, strict=True)
     return 0.5 * (min(east) + max(east)), 0.5 * (min(north) + max(north))
-
-
-def _station_positions(stations: Stations) -> list[tuple[float, float]]:
-    """Return the map positions of the stations, degrees east and north."""
-    return [map_position(stations, answer.longitude, answer.latitude) for answer in stations.mapped]
 
 
 def _surrounding_area(places: FloatArray) -> tuple[float, float, float, float]:
@@ -135,7 +131,7 @@ def _station_point(answer: StationReport, row: list[str], header: list[str], col
     return {
         "name": answer.label,
         "colour": colour,
-        "falls": answer.effect.overturns_nominally,
+        "falls": answer.effect.likely_overturns,
         "details": [*details, [gettext("record"), answer.record], [gettext("start time"), answer.local_start]],
         "failure": gettext(answer.failure) if answer.failure else "",
         "outline": [[round(value / GAL, 1) for value in pair] for pair in answer.outline],

@@ -14,17 +14,23 @@ from seisblock.core.i18n import gettext, join_list
 from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
 from seisblock.measures import RecordMeasures, ResponseSpectrum
+from seisblock.output.figures.fonts import build_localized
+from seisblock.output.figures.solver import response_figure
+from seisblock.output.figures.svg import embed_figure
+from seisblock.output.json.encode import to_builtins, to_json
+from seisblock.output.json.units import split_unit
+from seisblock.output.templating import render_page
+from seisblock.output.text.solver import describe
+from seisblock.output.text.tables import format_number
+from seisblock.output.units_display import acceleration_unit, length_unit, velocity_unit
 from seisblock.records import Motion, Record
-from seisblock.report.figures.fonts import build_localized
-from seisblock.report.figures.svg import embed_figure
-from seisblock.report.json.encode import to_builtins, to_json
-from seisblock.report.json.units import split_unit
-from seisblock.report.registry import response_document, response_figure, verdict_text
-from seisblock.report.templating import render_page
-from seisblock.report.text.tables import format_number
-from seisblock.report.units_display import acceleration_unit, length_unit, velocity_unit
+from seisblock.report.figures.probability import share_colour
+from seisblock.report.json.registry import response_document
+from seisblock.report.text.assessment import headline, predictability_text
+from seisblock.studies.assessment import Assessment
 from seisblock.studies.fragility.results import FragilityStudy
 from seisblock.studies.rocking.spectrum import RockingSpectrum
+from seisblock.studies.sampling import SAMPLED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -69,11 +75,18 @@ def html(value: Any) -> str:
     return render_page(
         "notebook.html",
         title,
-        verdict=verdict_text(value) if isinstance(value, Response) else "",
+        verdict=describe(value) if isinstance(value, Response) else predictability_text(value) if isinstance(value, Assessment) else "",
+        note=gettext("Single run; assess(body, record) gives the overturning probability.") if _has_probability(value) else "",
+        colour=share_colour(value.overturning_probability) if isinstance(value, Assessment) else "",
         tables=list(_tables(numbers)),
         warnings=[gettext(text) for text in warnings],
         picture=embed_figure(build_localized(lambda: _figure(value)), title) if isinstance(value, PlotMixin) else None,
     )
+
+
+def _has_probability(value: Any) -> bool:
+    """Return whether a value is a single run of a model with samples."""
+    return isinstance(value, Response) and value.model in SAMPLED
 
 
 def _figure(value: Any) -> Figure:
@@ -119,6 +132,8 @@ def _summary(item: Any) -> tuple[str, dict[str, Any], Sequence[str]]:
         keys = ("body", "limit", "median", "unit", "beta", "records")
         curves = [{key: value for key, value in to_builtins(curve).items() if key in keys} for curve in item.curves]
         return item.measure.label, {"solver": item.solver, "method": item.method, "curves": curves}, item.notes
+    if isinstance(item, Assessment):
+        return headline(item), {key.rstrip("_"): number for key, number in to_builtins(item).items()}, ()
     if isinstance(item, RockingSpectrum):
         return "2R, α", {"overturned": int(item.overturned.sum()), "blocks": item.overturned.size}, ()
     return type(item).__name__, {part.name: _plain(getattr(item, part.name)) for part in fields(item) if part.repr}, ()
@@ -139,7 +154,11 @@ def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]
     yield "", [_row(key, [value]) for key, value in flat.items()]
     for key, value in outcome.items():
         if isinstance(value, list) and value and all(isinstance(entry, Mapping) for entry in value):
-            names = [name for name, entry_value in value[0].items() if not isinstance(entry_value, Mapping)]
+            names = [
+                name
+                for name in dict.fromkeys(name for entry in value for name in entry)
+                if not any(isinstance(entry.get(name), Mapping) for entry in value)
+            ]
             rows = [_row(name, [entry.get(name) for entry in value[:MAX_COLUMNS]]) for name in names]
             table_name = key.replace("_", " ")
             is_truncated = len(value) > MAX_COLUMNS

@@ -9,42 +9,37 @@ from typing import Any
 from seisblock.core.i18n import N_, gettext, join_list, join_sentences
 from seisblock.criteria.compare import unique_criteria
 from seisblock.measures.shaking import response_shaking
+from seisblock.output.describe_wear import describe_edges
+from seisblock.output.figures.fonts import build_localized
+from seisblock.output.figures.solver import response_figure
+from seisblock.output.figures.svg import Picture, embed_figure
+from seisblock.output.templating import render_page
+from seisblock.output.text.record_info import record_info
+from seisblock.output.text.tables import DASH, acceleration_cell, format_acceleration, format_number, format_seconds, processing_text
+from seisblock.output.units_display import acceleration_unit, length_unit, velocity_unit
 from seisblock.records.qc_report import qc_summary
 from seisblock.records.site import format_local_time, get_site, source_name
 from seisblock.references import REFERENCES
-from seisblock.report.describe_wear import describe_edges
-from seisblock.report.figures.fonts import build_localized
-from seisblock.report.figures.svg import Picture, embed_figure
+from seisblock.report.figures.probability import share_colour
 from seisblock.report.html import report_text as words
-from seisblock.report.registry import response_figure
-from seisblock.report.templating import render_page
-from seisblock.report.text.record_info import record_info
-from seisblock.report.text.tables import DASH, acceleration_cell, format_acceleration, format_number, format_seconds, processing_text
-from seisblock.report.units_display import acceleration_unit, length_unit, velocity_unit
-from seisblock.studies.assessment import Assessment, BodyAssessment, ModelResponse
+from seisblock.report.text.report import body_headline
 from seisblock.studies.criteria_comparison import CriteriaComparison
+from seisblock.studies.report.responses import BodyResponses, ModelResponse, ReportData
 
 NON_BREAKING_HYPHEN = "\u2011"
 """Hyphen without line break."""
 
-GOVERNING_KIND = "respond"
-ORDER = (GOVERNING_KIND, "rock", "slide", "jump", "uplift")
-"""Sections of a body in order: full response, then the idealised models."""
 
-DRAWN_KINDS = (GOVERNING_KIND, "jump", "uplift")
-"""Kinds with a figure; rocking and sliding alone are covered by the figure of the full response."""
-
-
-def report(assessment: Assessment, *, command: str = "") -> str:
+def report(data: ReportData, *, command: str = "") -> str:
     """Return the report page in the language of the locale.
 
     Parameters
     ----------
-    assessment : Assessment
+    data : ReportData
     command : str
         Command line that produced the page, for the provenance.
     """
-    record = assessment.record
+    record = data.record
     read_as = record.format.replace("-", NON_BREAKING_HYPHEN)
     summary = " · ".join(part for part in (format_local_time(record, record.start), f"{record.samples} × {record.dt:g} s", read_as) if part)
     return render_page(
@@ -52,41 +47,45 @@ def report(assessment: Assessment, *, command: str = "") -> str:
         gettext("Seismic response of unanchored objects: {name}", name=get_site(record).label or source_name(record) or gettext("record")),
         subtitles=[summary, *record_info(record)],
         processed=processing_text(record) if record.history else "",
-        foot=", ".join(assessment.citations),
-        contents=_contents(assessment),
+        foot=", ".join(data.citations),
+        contents=_contents(data),
         doubts=[gettext(flag) for flag in qc_summary([record])],
-        verdicts=[_tile(body) for body in assessment.bodies],
-        record=_record(assessment),
-        bodies=[_body(assessment, body) for body in assessment.bodies],
-        provenance=_provenance(assessment, command),
-        references=[REFERENCES[key].text() for key in assessment.citations],
+        verdicts=[_tile(body) for body in data.bodies],
+        record=_record(data),
+        bodies=[_body(data, body) for body in data.bodies],
+        provenance=_provenance(data, command),
+        references=[REFERENCES[key].text() for key in data.citations],
         limits=gettext(words.LIMITS),
     )
 
 
-def _contents(assessment: Assessment) -> list[tuple[str, str]]:
+def _contents(data: ReportData) -> list[tuple[str, str]]:
     """Return anchor and title of each section."""
-    bodies = [(f"body-{number}", gettext(body.subject.name)) for number, body in enumerate(assessment.bodies, start=1)]
+    bodies = [(f"body-{number}", gettext(body.subject.name)) for number, body in enumerate(data.bodies, start=1)]
     return [("record", gettext("Ground motion record")), *bodies, ("origin", gettext("Provenance"))]
 
 
-def _effects_of_kind(body: BodyAssessment, kind: str) -> list[ModelResponse]:
-    """Return the effects of one kind, one per component."""
-    return [effect for effect in body.effects if effect.kind == kind]
+def _effects_by_model(body: BodyResponses) -> list[list[ModelResponse]]:
+    """Return the effects of each model, one per component: the full response first, then the idealised models."""
+    models = dict.fromkeys(effect.response.model for effect in body.effects)
+    return [[effect for effect in body.effects if effect.response.model == model] for model in models]
 
 
-def _tile(body: BodyAssessment) -> dict[str, str]:
-    """Return the card of a body: result of the worst component, with its probability."""
-    effects = _effects_of_kind(body, GOVERNING_KIND)
-    head, text = words.card_text(effects, gettext(body.subject.name))
-    return {"level": words.severity_class(effects), "head": head, "text": join_sentences(text)}
+def _tile(body: BodyResponses) -> dict[str, str]:
+    """Return the card of a body: probability as an object, then the directions, the worst first."""
+    effects = [effect for effect in body.effects if effect.governing is not None]
+    return {
+        "colour": share_colour(body.assessment.overturning_probability),
+        "head": gettext("{text}.", text=body_headline(body)),
+        "text": join_sentences(words.card_text(effects)),
+    }
 
 
-def _record(assessment: Assessment) -> dict[str, Any]:
+def _record(data: ReportData) -> dict[str, Any]:
     """Return the section of the record: summary, table of intensity measures by component, figure."""
     from seisblock.report.figures.measure import measure_figure
 
-    measures = assessment.measures
+    measures = data.measures
     lead = []
     if measures.jma_intensity is not None:
         lead.append(
@@ -113,12 +112,12 @@ def _record(assessment: Assessment) -> dict[str, Any]:
         "lead": join_list(lead),
         "headings": ["", *(m.component for m in parts)],
         "rows": rows,
-        "picture": embed_figure(build_localized(lambda: measure_figure(assessment.record, measures)), caption),
+        "picture": embed_figure(build_localized(lambda: measure_figure(data.record, measures)), caption),
         "warnings": [gettext(text) for text in measures.warnings],
     }
 
 
-def _body(assessment: Assessment, body: BodyAssessment) -> dict[str, Any]:
+def _body(data: ReportData, body: BodyResponses) -> dict[str, Any]:
     """Return the section of one body: dimensions, then one part per kind of motion."""
     block, friction = body.subject.block, body.subject.mu
     facts = [
@@ -128,20 +127,20 @@ def _body(assessment: Assessment, body: BodyAssessment) -> dict[str, Any]:
     ]
     facts += [gettext(describe_edges(block))] if block.inset else []
     facts += [f"μ {friction:g}\u00a0/\u00a0{body.subject.mu_kinetic:g}"] if friction is not None else []
-    sections = [_section(assessment, body, kind) for kind in ORDER if _effects_of_kind(body, kind)]
+    sections = [_section(data, body, effects) for effects in _effects_by_model(body)]
     return {"name": gettext(body.subject.name), "about": join_list(facts), "models": _models(body), "sections": sections}
 
 
-def _models(body: BodyAssessment) -> list[list[str]]:
+def _models(body: BodyResponses) -> list[list[str]]:
     """Return one row per idealised model and component: result, factor at which motion begins, threshold and time above it."""
     rows = []
-    for kind in ORDER[1:]:
-        for effect in _effects_of_kind(body, kind):
+    for effects in _effects_by_model(body)[1:]:
+        for effect in effects:
             begins = DASH if effect.onset is None or not math.isfinite(effect.onset) else f"{effect.onset:.2f}"
             shaking = response_shaking(effect.response)
             rows.append(
                 [
-                    gettext(words.SECTIONS[kind]),
+                    gettext(words.section(effect).title),
                     effect.response.motion.name,
                     words.verdict(effect),
                     begins,
@@ -153,39 +152,38 @@ def _models(body: BodyAssessment) -> list[list[str]]:
     return rows
 
 
-def _section(assessment: Assessment, body: BodyAssessment, kind: str) -> dict[str, Any]:
-    """Return the part of one kind of motion: sentences, warnings, figures."""
-    effects = _effects_of_kind(body, kind)
+def _section(data: ReportData, body: BodyResponses, effects: Sequence[ModelResponse]) -> dict[str, Any]:
+    """Return the part of one model: sentences, warnings, figures; the criteria stand beside the margins of rocking."""
     worst = max(effects, key=words.rank)
     return {
-        "name": gettext(words.SECTIONS[kind]),
+        "name": gettext(words.section(worst).title),
         "effects": [join_sentences(words.sentences(effect)) for effect in effects],
         "scatter": words.scatter_text(effects),
         "warnings": list(dict.fromkeys(gettext(text) for effect in effects for text in effect.response.warnings)),
-        "picture": _picture(worst, of=len(effects) if words.severity(worst) else 1) if kind in DRAWN_KINDS else None,
-        "criteria": _criteria(assessment, body, effects) if kind == "rock" else None,
+        "picture": _picture(worst, of=len(effects) if words.severity(worst) else 1) if words.section(worst).has_figure else None,
+        "criteria": _criteria(data, body, effects) if worst.margin is not None else None,
     }
 
 
 def _picture(effect: ModelResponse, *, of: int) -> Picture:
     """Return the figure of an effect; the caption marks the governing one of several."""
     text = N_("{what}, {name}") if of == 1 else N_("{what}, {name} (worst component)")
-    caption = gettext(text, name=effect.response.motion.name, what=gettext(words.SECTIONS[effect.kind]))
+    caption = gettext(text, name=effect.response.motion.name, what=gettext(words.section(effect).title))
     return embed_figure(build_localized(lambda: response_figure([effect.response])), caption)
 
 
-def _criteria(assessment: Assessment, body: BodyAssessment, effects: Sequence[ModelResponse]) -> dict[str, Any]:
+def _criteria(data: ReportData, body: BodyResponses, effects: Sequence[ModelResponse]) -> dict[str, Any]:
     """Return the comparison of overturning criteria with the simulation."""
     from seisblock.report.figures.criteria import figure
 
-    measures = {m.component: m for m in assessment.measures.components}
+    measures = {m.component: m for m in data.measures.components}
     cards, sentences = [], []
     for effect in effects:
         name = effect.response.motion.name
-        highpass = assessment.measures.conventions.velocity_highpass_hz
+        highpass = data.measures.conventions.velocity_highpass_hz
         cards.append(
             CriteriaComparison(
-                assessment.record,
+                data.record,
                 name,
                 body.subject.block,
                 measures[name],
@@ -204,15 +202,15 @@ def _criteria(assessment: Assessment, body: BodyAssessment, effects: Sequence[Mo
     return {"sentences": sentences, "picture": embed_figure(build_localized(lambda: figure(cards)), caption)}
 
 
-def _provenance(assessment: Assessment, command: str) -> list[tuple[str, str]]:
+def _provenance(data: ReportData, command: str) -> list[tuple[str, str]]:
     """Return name and value of each item of the provenance."""
-    record, corner = assessment.record, assessment.measures.conventions.velocity_highpass_hz
+    record, corner = data.record, data.measures.conventions.velocity_highpass_hz
     return [
         (gettext("file"), source_name(record) or DASH),
         ("sha256", record.sha256),
         (gettext("format"), record.format),
         (gettext("processing"), processing_text(record)),
-        (gettext("gravity"), f"{assessment.gravity:g} m/s²"),
+        (gettext("gravity"), f"{data.gravity:g} m/s²"),
         (gettext("velocity"), gettext("high-pass {corner:g} Hz", corner=corner) if corner else DASH),
         (gettext("command"), command or gettext("none (called from Python)")),
     ]

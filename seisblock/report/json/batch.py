@@ -7,8 +7,8 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
+from seisblock.output.json.schema import Document, DocumentSchema, Result
 from seisblock.references import papers
-from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.batch.tally import Tally
 from seisblock.studies.batch.task import Plan
 
@@ -44,12 +44,16 @@ class BatchEntry(Result, frozen=True, kw_only=True):
         Rows with and without a result.
     happened_count : int
         Rows with the event of the solver: overturning, sliding, jump, uplift, or fall of a stone.
+    objects_count, objects_happened_count : int
+        Objects, one per record, with a result, and with the event under any component.
     """
 
     body: str
     answers_count: int
     failures_count: int
     happened_count: int
+    objects_count: int
+    objects_happened_count: int
 
 
 TOTALS = {
@@ -62,7 +66,17 @@ BATCH = DocumentSchema("batch", BatchParameters, BatchEntry, TOTALS)
 def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Document:
     """Return the document of a finished batch."""
     entries = (
-        (None, BatchEntry(body=c.body, answers_count=c.answers, failures_count=c.failures, happened_count=c.events))
+        (
+            None,
+            BatchEntry(
+                body=c.body,
+                answers_count=c.answers,
+                failures_count=c.failures,
+                happened_count=c.events,
+                objects_count=c.objects,
+                objects_happened_count=c.object_events,
+            ),
+        )
         for c in tally.sorted_counts()
     )
     return BATCH.document(

@@ -11,8 +11,8 @@ from seisblock.bodies.scan.azimuths import ScanAzimuth
 from seisblock.bodies.scan.body import Pair, Triple, min_slenderness
 from seisblock.bodies.scan.qc import scan_qc_messages
 from seisblock.bodies.scan.scan import Scan
+from seisblock.output.json.schema import Document, DocumentSchema, Result
 from seisblock.references import papers
-from seisblock.report.json.schema import Document, DocumentSchema, Result
 
 
 class BodyParameters(Struct, frozen=True, kw_only=True):

@@ -9,9 +9,9 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from seisblock.core.units import GAL
+from seisblock.output.json.entries import entry_type, to_entry
+from seisblock.output.json.schema import Document, DocumentSchema, Result
 from seisblock.references.reference import Reference
-from seisblock.report.json.entries import entry_type, to_entry
-from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.samples import Sample, sample_directory
 
 

@@ -12,10 +12,11 @@ from seisblock.measures.frequency import EquivalentFrequency
 from seisblock.measures.shaking import BodyShaking
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
+from seisblock.output.json.bodies import BlockEntry, block_entry
+from seisblock.output.json.entries import entry_type, parameters_type, to_entry, to_parameters
+from seisblock.output.json.schema import Document, DocumentSchema, Result
 from seisblock.references import find_citations, papers
-from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.entries import entry_type, parameters_type, to_entry, to_parameters
-from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.report.json.peaks import peak_schema
 from seisblock.studies.criteria_comparison import CriteriaComparison
 from seisblock.studies.model_comparison import ModelComparison
 
@@ -114,6 +115,7 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
 
 
 CRITERIA = DocumentSchema("criteria", CRITERIA_PARAMETERS, CriteriaResult)
+CRITERIA_PEAKS = peak_schema("criteria")
 
 
 def document(cards: Sequence[CriteriaComparison], options: RockOptions) -> Document:

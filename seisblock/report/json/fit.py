@@ -8,9 +8,9 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from seisblock.bodies.block import Block
+from seisblock.output.json.bodies import BlockEntry, block_entry
+from seisblock.output.json.schema import Document, DocumentSchema, Result
 from seisblock.references import command_papers
-from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.fit.cross_validation import HeldOutScores
 from seisblock.studies.fit.fit import BlockFit
 from seisblock.studies.fit.outcome_table import OutcomeTable

@@ -10,10 +10,10 @@ from msgspec import Struct
 from seisblock.bodies.block import Block
 from seisblock.core.registry import SolverBody, get_solver
 from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.output.json.bodies import BlockEntry, block_entry
+from seisblock.output.json.entries import entry_type, to_entry
+from seisblock.output.json.schema import Document, DocumentSchema
 from seisblock.references import papers
-from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.entries import entry_type, to_entry
-from seisblock.report.json.schema import Document, DocumentSchema
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy
 

@@ -3,44 +3,53 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import zip_longest
 from typing import Annotated, Any
 
 from msgspec import Meta
 
-from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.core.results import Response
-from seisblock.models.jump.options import JumpOptions
-from seisblock.models.jump.solve import JumpOutcome
-from seisblock.report.json.bodies import TwoLayerEntry, two_layer_entry
-from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
-from seisblock.report.json.schema import Document, DocumentSchema
+from seisblock.models.jump.solve import JumpOutcome, leaves_mortise
+from seisblock.output.json.entries import entry_type, to_entry
+from seisblock.output.json.schema import Document
+from seisblock.output.json.solver import document as solver_document
+from seisblock.output.json.solver import solver_schema
 
-JUMP_PARAMETERS = parameters_type(
-    "JumpParameters",
-    Contact,
-    JumpOptions,
-    exclude=("contact",),
-    extra={
-        "block": TwoLayerEntry,
-        "tenon_m": Annotated[float | None, Meta(description="Depth of the tenon's hole.")],
+PRINTED_OUTCOME = entry_type("PrintedJump", JumpOutcome)
+JUMP = solver_schema(
+    "jump",
+    results={
+        "side": Annotated[str | None, Meta(description="Side of the body along the motion, null for a body given by its sizes.")],
+        "drop_m": Annotated[float, Meta(description="Height of the floor above the landing ground.")],
+        "restitution_y": Annotated[float, Meta(description="Ratio of vertical velocities at the impact.")],
+        "leaves_mortise": Annotated[bool | None, Meta(description="Whether the tenons leave their mortises; null without tenons.")],
+        "as_printed": Annotated[PRINTED_OUTCOME | None, Meta(description="Outcome of the paper's own scheme, with --as-printed.")],
     },
 )
-JUMP_RESULT = outcome_type("JumpResult", JumpOutcome)
-JUMP = DocumentSchema("jump", JUMP_PARAMETERS, JUMP_RESULT, version=2)
 
 
-def document(responses: Sequence[Response[JumpOutcome]], block: TwoLayerBlock, *, tenon: float | None) -> Document:
-    """Return the document of one run per direction."""
-    options: JumpOptions = responses[0].options
-    contact = options.contact
-    return JUMP.document(
-        to_parameters(JUMP_PARAMETERS, contact, options, mu_kinetic=contact.kinetic, block=two_layer_entry(block), tenon_m=tenon),
-        (to_outcome_entry(JUMP_RESULT, response) for response in responses),
-        citations=[key for response in responses for key in response.citations],
-        warnings=[text for response in responses for text in response.warnings],
-    )
+def document(responses: Sequence[Response[JumpOutcome]], *, printed: Sequence[Response[JumpOutcome]] = ()) -> Document:
+    """Return the document of one run per combination and direction, with the runs of the paper's own scheme.
+
+    Parameters
+    ----------
+    responses : sequence of Response
+    printed : sequence of Response
+        One per response, or none.
+    """
+    keys = [
+        {
+            "side": response.body.side,
+            "drop_m": response.options.drop,
+            "restitution_y": response.options.contact.restitution_y,
+            "leaves_mortise": leaves_mortise(response),
+            "as_printed": None if paper is None else to_entry(PRINTED_OUTCOME, paper.outcome),
+        }
+        for response, paper in zip_longest(responses, printed)
+    ]
+    return solver_document(responses, JUMP, results=keys)
 
 
 def response_document(response: Response[Any]) -> Document:
     """Return the document of one response."""
-    return document([response], response.body, tenon=None)
+    return document([response])

@@ -8,8 +8,9 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.output.json.schema import Document, DocumentSchema, EarthquakeEntry, Result, earthquake_entry
 from seisblock.references import papers
-from seisblock.report.json.schema import Document, DocumentSchema, EarthquakeEntry, Result, earthquake_entry
+from seisblock.report.json.assessment import AssessmentEntry, assessment_entry
 from seisblock.studies.map.earthquakes import ONE_DAY
 from seisblock.studies.map.station_response import StationBody, StationModel
 from seisblock.studies.map.station_row import station_row
@@ -30,6 +31,10 @@ class MapParameters(Struct, frozen=True, kw_only=True):
         Number of samples, and their seed.
     step_deg : float
         Step of the azimuths; 0 for components only (``jump``, ``uplift``).
+    scale : float
+        Factor on the records.
+    target_pga_m_s2, target_jma_intensity : float or None
+        To which each record is scaled.
     """
 
     subject: str
@@ -37,6 +42,9 @@ class MapParameters(Struct, frozen=True, kw_only=True):
     runs: int
     seed: int
     step_deg: float
+    scale: float
+    target_pga_m_s2: float | None
+    target_jma_intensity: float | None
 
 
 class StationEntry(Result, frozen=True, kw_only=True):
@@ -46,8 +54,8 @@ class StationEntry(Result, frozen=True, kw_only=True):
     ----------
     record : str
         File name.
-    station, name : str
-        Empty if not in the file.
+    station, seed_id, name : str
+        Code, network.station.location.channels, and name; empty if not in the file.
     latitude, longitude : float or None
         Degrees north and east; null if not in the file.
     epicentral_distance_km : float or None
@@ -65,7 +73,7 @@ class StationEntry(Result, frozen=True, kw_only=True):
     overturned : bool or None
         Null for solvers without overturning.
     probability : float or None
-        Overturning probability.
+        Overturning probability under any horizontal component.
     max_slip_m : float or None
         Maximum displacement of the body.
     max_uplift_m : float or None
@@ -76,10 +84,13 @@ class StationEntry(Result, frozen=True, kw_only=True):
         Quality flags of the record.
     history : str or None
         Processing steps, including floor motion.
+    assessment : AssessmentEntry or None
+        Of the body under any horizontal component; null without samples.
     """
 
     record: str
     station: str
+    seed_id: str
     name: str
     latitude: float | None
     longitude: float | None
@@ -98,6 +109,7 @@ class StationEntry(Result, frozen=True, kw_only=True):
     failure: str | None
     doubts: str | None
     history: str | None
+    assessment: AssessmentEntry | None
 
 
 class NeighbourEntry(Struct, frozen=True, kw_only=True):
@@ -180,10 +192,13 @@ def document(
         runs=getattr(model, "runs", 0),
         seed=getattr(model, "seed", 0),
         step_deg=getattr(model, "step_deg", 0.0) if body is None or body.is_directional else 0.0,
+        scale=stations.preparation.scale,
+        target_pga_m_s2=stations.preparation.target_pga,
+        target_jma_intensity=stations.preparation.target_jma,
     )
     return MAP.document(
         parameters,
-        [(None, StationEntry(**station_row(answer))) for answer in stations.answers],
+        [(None, _station_entry(answer)) for answer in stations.answers],
         citations=tuple(dict.fromkeys((*papers("measures"), *(model.citations if model else ()), *(_SURVEY_CITATIONS if surveys else ())))),
         warnings=warnings(stations),
         upstairs=upstairs,
@@ -213,6 +228,11 @@ def survey_entry(answer: SurveyComparison) -> SurveyEntry:
         expected_jma_intensity=answer.expected_intensity,
         residual_jma_intensity=answer.residual,
     )
+
+
+def _station_entry(report: StationReport) -> StationEntry:
+    assessment = report.effect.assessment
+    return StationEntry(**station_row(report), assessment=None if assessment is None else assessment_entry(assessment))
 
 
 def warnings(stations: Stations) -> list[str]:

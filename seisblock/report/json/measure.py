@@ -8,12 +8,12 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures
+from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures, RotatedSpectrum
 from seisblock.measures.long_period import LongPeriodMotion
 from seisblock.measures.peaks import HorizontalPeak
+from seisblock.output.json.entries import entry_type, to_entry
+from seisblock.output.json.schema import Document, DocumentSchema
 from seisblock.records import Record
-from seisblock.report.json.entries import entry_type, to_entry
-from seisblock.report.json.schema import Document, DocumentSchema
 
 
 class MeasureParameters(Struct, frozen=True, kw_only=True):
@@ -43,6 +43,21 @@ class MeasureParameters(Struct, frozen=True, kw_only=True):
     gravity_m_s2: float
 
 
+class SpectrumRow(Struct, frozen=True, kw_only=True):
+    """Spectral acceleration of both horizontals at one period, damping 5 %.
+
+    Parameters
+    ----------
+    period_s : float
+    rotd50_m_s2, rotd100_m_s2 : float
+        Median and maximum over all directions of the pseudo-spectral acceleration.
+    """
+
+    period_s: float
+    rotd50_m_s2: float
+    rotd100_m_s2: float
+
+
 EXTRA_KEYS = {
     "jma_intensity": Annotated[float | list[float | None] | None, Meta(description="Instrumental intensity, not rounded.")],
     "jma_class": Annotated[str | list[str | None] | None, Meta(description="Class of that intensity.")],
@@ -51,6 +66,9 @@ EXTRA_KEYS = {
         Meta(description="JMA class of long-period ground motion, and the floor velocity."),
     ],
     "peak_horizontal": Annotated[HorizontalPeak | list[HorizontalPeak | None] | None, Meta(description="Peak horizontal vector.")],
+    "spectra": Annotated[
+        list[SpectrumRow | list[SpectrumRow]], Meta(description="RotD50 and RotD100 by period; empty without two horizontals.")
+    ],
 }
 """Keys of the record rather than of a component; lists for several records."""
 
@@ -70,6 +88,7 @@ def document(
         "jma_class": [measures.jma_class for measures in answers],
         "long_period": [measures.long_period for measures in answers],
         "peak_horizontal": [measures.horizontal for measures in answers],
+        "spectra": [_spectrum_rows(measures.spectra) for measures in answers],
     }
     return MEASURE.document(
         MeasureParameters(threshold_m_s2=threshold, threshold_from=threshold_from, **asdict(conventions)),
@@ -78,3 +97,10 @@ def document(
         warnings=[text for measures in answers for text in measures.warnings],
         **{key: values if len(records) > 1 else values[0] for key, values in extra.items()},
     )
+
+
+def _spectrum_rows(spectrum: RotatedSpectrum | None) -> list[SpectrumRow]:
+    if spectrum is None:
+        return []
+    columns = (spectrum.period_s.tolist(), spectrum.rotd50_m_s2.tolist(), spectrum.rotd100_m_s2.tolist())
+    return [SpectrumRow(period_s=t, rotd50_m_s2=median, rotd100_m_s2=largest) for t, median, largest in zip(*columns, strict=True)]

@@ -8,15 +8,16 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
-from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.edge_wear import DEFAULT_WEAR, EdgeWear
 from seisblock.criteria.gravestones import GravestoneFit
 from seisblock.measures import Conventions
+from seisblock.output.json.entries import entry_type, to_entry
+from seisblock.output.json.schema import Document, DocumentSchema, Result
 from seisblock.records import Motion, Record
 from seisblock.records._validation import vertical_acts
-from seisblock.report.json.entries import entry_type, to_entry
-from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.survey.assessment import AssessmentMethod, CemeteryRate
 from seisblock.studies.survey.overturning_rate import CurvePoint
+from seisblock.studies.survey.stones import Contingency, StoneResult
 
 
 class RateParameters(Struct, frozen=True, kw_only=True):
@@ -33,7 +34,9 @@ class RateParameters(Struct, frozen=True, kw_only=True):
     fit, fit_reinforced : GravestoneFit
         Parameters of eq. (8) without and with a dowel.
     inset : Inset or None
-        Edge wear, for criteria that use it.
+        Edge wear of the nominal stone, for criteria that use it.
+    runs, seed : int or None
+        Number of samples of each simulated stone, and their seed.
     stone_width_m : float
         Width of stones without a width in the file.
     gravity_m_s2 : float
@@ -55,6 +58,8 @@ class RateParameters(Struct, frozen=True, kw_only=True):
     fit: GravestoneFit
     fit_reinforced: GravestoneFit
     inset: EdgeWear | None
+    runs: int | None
+    seed: int | None
     stone_width_m: float
     gravity_m_s2: float
     confidence: float
@@ -71,8 +76,14 @@ class CurveResult(Result, frozen=True, kw_only=True):
 
 
 CURVE_KEY = {"curve": Annotated[tuple[CurvePoint, ...], Meta(description="Rate against PGA at the requested frequencies.")]}
+STONE_KEYS = {
+    "each_stone": Annotated[
+        tuple[StoneResult, ...], Meta(description="Outcome of each stone under both horizontals of the first record, or the first --pga.")
+    ],
+    "contingency": Annotated[Contingency | None, Meta(description="Numbers of surveyed stones by computed and observed outcome.")],
+}
 RATE_RESULT = entry_type("RateResult", CemeteryRate)
-RATE = DocumentSchema("overturn-rate", RateParameters, RATE_RESULT, CURVE_KEY, version=2)
+RATE = DocumentSchema("overturn-rate", RateParameters, RATE_RESULT, CURVE_KEY | STONE_KEYS, version=2)
 CURVE_ALONE = DocumentSchema("overturn-rate", RateParameters, CurveResult, CURVE_KEY, name="curve", version=2)
 
 
@@ -89,7 +100,9 @@ def parameters_of(
         criterion=method.criterion,
         fit=method.fits[0],
         fit_reinforced=method.fits[1],
-        inset=None if method.criterion == "furukawa" else method.inset,
+        inset=None if method.criterion == "furukawa" else method.inset or DEFAULT_WEAR,
+        runs=method.runs if method.criterion == "simulate" else None,
+        seed=method.seed if method.criterion == "simulate" else None,
         stone_width_m=method.width,
         gravity_m_s2=method.gravity,
         confidence=method.confidence,
@@ -113,4 +126,14 @@ def document(
     if not groups:
         return CURVE_ALONE.document(parameters, [(None, CurveResult(curve=points))], citations=citations, warnings=warnings, curve=points)
     entries = ((record, to_entry(RATE_RESULT, rate)) for record, rates in groups for rate in rates)
-    return RATE.document(parameters, entries, citations=citations, warnings=warnings, curve=points)
+    record, rates = groups[0]
+    first = rates[0] if record is None else rates[-1]
+    return RATE.document(
+        parameters,
+        entries,
+        citations=citations,
+        warnings=warnings,
+        curve=points,
+        each_stone=first.each_stone,
+        contingency=first.contingency,
+    )

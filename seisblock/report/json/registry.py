@@ -12,13 +12,16 @@ from typing import Any
 import msgspec
 
 from seisblock.core.errors import ParameterError
-from seisblock.core.registry import solver_names
-from seisblock.report.json.schema import DocumentSchema
-from seisblock.report.json.units import split_unit
+from seisblock.core.registry import get_solver, solver_names
+from seisblock.core.results import Response
+from seisblock.output.json.schema import Document, DocumentSchema
+from seisblock.output.json.solver import document as document_of
+from seisblock.output.json.solver import plain_schema
+from seisblock.output.json.units import split_unit
 
 STUDY_DOCUMENTS = (
-    "measure", "criteria", "spectrum", "overturn-rate", "infer", "body", "batch", "map", "fragility", "risk", "fit", "validate", "cite",
-    "samples",
+    "measure", "criteria", "spectrum", "overturn-rate", "infer", "body", "batch", "map", "fragility", "risk", "fit", "paper", "scenario",
+    "secure", "report", "validate", "cite", "samples",
 )  # fmt: skip
 """Commands with a document, apart from those of the solvers."""
 
@@ -30,6 +33,9 @@ def document_commands() -> tuple[str, ...]:
     """Return the commands with a document: solvers, then studies and tools."""
     return (*solver_names(), *STUDY_DOCUMENTS)
 
+
+OTHER_DOCUMENTS = {"respond": ("rigid3d",)}
+"""Commands that may answer with the document of another one: ``respond`` in three dimensions."""
 
 JSON_SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -44,13 +50,21 @@ def document_schemas(command: str) -> list[DocumentSchema]:
     """
     if command not in document_commands():
         raise ParameterError("{command!r} has no JSON document; available: {known}", command=command, known=list(document_commands()))
-    own = f"{__package__}.{'citations' if command in CITATION_COMMANDS else command.replace('-', '_')}"
-    if importlib.util.find_spec(own) is None:
-        from seisblock.report.json.solver import solver_schema
-
-        return [solver_schema(command)]
-    schemas = vars(importlib.import_module(own)).values()
+    module_name = f"{__package__}.{'citations' if command in CITATION_COMMANDS else command.replace('-', '_')}"
+    modules = [importlib.import_module(name) for name in (module_name, f"{module_name}_study") if importlib.util.find_spec(name)]
+    plain = [plain_schema(command)] if command in solver_names() and not importlib.util.find_spec(module_name) else []
+    schemas = [*plain, *(schema for module in modules for schema in vars(module).values())]
     return [schema for schema in schemas if isinstance(schema, DocumentSchema) and schema.command == command]
+
+
+def response_document(response: Response[Any]) -> Document:
+    """Return the JSON document of one response, with the keys that studies add for its model."""
+    get_solver(response.model)  # an unknown model has no document
+    module_name = f"{__package__}.{response.model}"
+    if not importlib.util.find_spec(module_name):
+        return document_of([response])
+    document: Document = importlib.import_module(module_name).response_document(response)
+    return document
 
 
 def json_schema(command: str) -> dict[str, Any]:
@@ -63,7 +77,7 @@ def json_schema(command: str) -> dict[str, Any]:
     ParameterError
         If the command answers with no document.
     """
-    kinds = document_schemas(command)
+    kinds = [kind for name in (command, *OTHER_DOCUMENTS.get(command, ())) for kind in document_schemas(name)]
     references, definitions = msgspec.json.schema_components([kind.type for kind in kinds])
     for definition in definitions.values():
         _add_descriptions(definition)

@@ -1,4 +1,4 @@
-"""JSON document of ``seisblock respond``."""
+"""JSON document of ``seisblock respond``: the response, its probability and its azimuths."""
 
 from __future__ import annotations
 
@@ -7,44 +7,35 @@ from typing import Annotated, Any
 
 from msgspec import Meta, UnsetType
 
-from seisblock.bodies.block import Block
 from seisblock.core.results import Response
-from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.outcome import RespondOutcome
-from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
-from seisblock.report.json.schema import Document, DocumentSchema
+from seisblock.output.json.bodies import BlockEntry
+from seisblock.output.json.schema import Document
+from seisblock.output.json.solver import document as solver_document
+from seisblock.output.json.solver import solver_schema
+from seisblock.report.json.assessment import ALL_AZIMUTHS_KEY, ASSESSMENT_KEY, OBJECT_KEY, VARIANT_KEYS, entry_keys, object_keys
 from seisblock.studies.respond.azimuths import RespondAzimuth
 from seisblock.studies.respond.probability import Probability
 
-RESPOND_PARAMETERS = parameters_type(
-    "RespondParameters",
-    RespondOptions,
-    exclude=("sensitivity",),
-    extra={"block": Annotated[BlockEntry, Meta(description="Block of the first result.")]},
-)
-RESPOND_RESULT = outcome_type(
-    "RespondResult",
-    RespondOutcome,
-    extra={
-        "block": Annotated[BlockEntry, Meta(description="Equivalent block of a scan in this direction.")] | UnsetType,
+RESPOND = solver_schema(
+    "respond",
+    results={
+        **VARIANT_KEYS,
+        "block": Annotated[BlockEntry, Meta(description="Block in this direction, of a scan or towards an azimuth.")] | UnsetType,
+        "assessment": ASSESSMENT_KEY | UnsetType,
         "probability": Annotated[Probability, Meta(description="Overturning probability; absent with --runs 0.")] | UnsetType,
+        "all_azimuths": ALL_AZIMUTHS_KEY,
         "directions": Annotated[list[RespondAzimuth], Meta(description="With --component all-azimuths, the worst first.")] | UnsetType,
     },
+    extra={"object": OBJECT_KEY},
 )
-RESPOND = DocumentSchema("respond", RESPOND_PARAMETERS, RESPOND_RESULT)
 
 
-def document(responses: Sequence[Response[RespondOutcome]], block: Block, extras: Sequence[Mapping[str, Any]]) -> Document:
+def document(responses: Sequence[Response[RespondOutcome]], extras: Sequence[Mapping[str, Any]]) -> Document:
     """Return the document of one run per direction, with probability and azimuth sweep."""
-    return RESPOND.document(
-        to_parameters(RESPOND_PARAMETERS, responses[0].options, block=block_entry(block)),
-        (to_outcome_entry(RESPOND_RESULT, response, **extra) for response, extra in zip(responses, extras, strict=True)),
-        citations=[key for response in responses for key in response.citations],
-        warnings=[text for response in responses for text in response.warnings],
-    )
+    return solver_document(responses, RESPOND, results=list(map(entry_keys, extras)), extra=object_keys(responses, extras))
 
 
 def response_document(response: Response[Any]) -> Document:
     """Return the document of one response."""
-    return document([response], response.body, [{}])
+    return document([response], [{}])

@@ -9,9 +9,9 @@ import numpy as np
 from msgspec import Meta, Struct
 
 from seisblock.core.i18n import lazy_gettext
+from seisblock.output.json.entries import entry_type, to_entry
+from seisblock.output.json.schema import Document, DocumentSchema
 from seisblock.references import papers
-from seisblock.report.json.entries import entry_type, to_entry
-from seisblock.report.json.schema import Document, DocumentSchema
 from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.hazard.curve import Hazard
 from seisblock.studies.hazard.risk import Risk

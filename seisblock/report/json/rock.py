@@ -1,4 +1,4 @@
-"""JSON document of ``seisblock rock``."""
+"""JSON document of ``seisblock rock``: the response, and the studies of the block."""
 
 from __future__ import annotations
 
@@ -7,61 +7,63 @@ from typing import Annotated, Any
 
 from msgspec import Meta, UnsetType
 
-from seisblock.bodies.block import Block
 from seisblock.core.results import Response
-from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
-from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
-from seisblock.report.json.schema import Document, DocumentSchema
-from seisblock.studies.model_comparison import ModelComparison, compare_models
+from seisblock.output.json.bodies import BlockEntry
+from seisblock.output.json.schema import Document
+from seisblock.output.json.solver import document as solver_document
+from seisblock.output.json.solver import solver_schema
+from seisblock.report.json.assessment import ALL_AZIMUTHS_KEY, ASSESSMENT_KEY, OBJECT_KEY, VARIANT_KEYS, entry_keys, object_keys
+from seisblock.report.json.peaks import peak_schema
+from seisblock.studies.assessment import assess_rock
+from seisblock.studies.model_comparison import ModelComparison
 from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.rocking.margin import Margin, flag_near_flip
 from seisblock.studies.rocking.perturb import Perturbation
+from seisblock.studies.sampling import sample
 
-ROCK_PARAMETERS = parameters_type(
-    "RockParameters",
-    RockOptions,
-    exclude=("initial",),
-    extra={
-        "block": Annotated[BlockEntry, Meta(description="Block of the first result.")],
+ROCK = solver_schema(
+    "rock",
+    parameters={
         "margin_limit": Annotated[float | None, Meta(description="Largest factor of the search for margins; null without one.")],
         "mu": Annotated[float | None, Meta(description="Available friction; null if not given.")],
     },
-)
-ROCK_RESULT = outcome_type(
-    "RockResult",
-    RockOutcome,
-    extra={
-        "block": Annotated[BlockEntry, Meta(description="Equivalent block of a scan in this direction.")] | UnsetType,
+    results={
+        **VARIANT_KEYS,
+        "block": Annotated[BlockEntry, Meta(description="Block in this direction, of a scan or towards an azimuth.")] | UnsetType,
         "agreement": Annotated[ModelComparison, Meta(description="Results of other models of the same block.")] | UnsetType,
+        "assessment": ASSESSMENT_KEY | UnsetType,
         "friction_suffices": Annotated[bool, Meta(description="With --mu: whether the friction suffices for the motion.")] | UnsetType,
         "margin": Annotated[Margin, Meta(description="With --margin.")] | UnsetType,
+        "all_azimuths": ALL_AZIMUTHS_KEY,
         "directions": Annotated[list[RockAzimuth], Meta(description="With --component all-azimuths, the worst first.")] | UnsetType,
         "perturbation": Annotated[Perturbation, Meta(description="With --perturb, or --margin.")] | UnsetType,
     },
+    extra={"object": OBJECT_KEY},
 )
-ROCK = DocumentSchema("rock", ROCK_PARAMETERS, ROCK_RESULT)
+ROCK_PEAKS = peak_schema("rock")
 
 
 def document(
     responses: Sequence[Response[RockOutcome]],
-    block: Block,
     extras: Sequence[Mapping[str, Any]],
     *,
     margin_limit: float | None = None,
     mu: float | None = None,
 ) -> Document:
     """Return the document of one run per direction, with margin and perturbation."""
-    return ROCK.document(
-        to_parameters(ROCK_PARAMETERS, responses[0].options, block=block_entry(block), margin_limit=margin_limit, mu=mu),
-        (to_outcome_entry(ROCK_RESULT, response, **extra) for response, extra in zip(responses, extras, strict=True)),
-        citations=[key for response in responses for key in response.citations],
-        warnings=[text for response in responses for text in response.warnings],
+    return solver_document(
+        responses,
+        ROCK,
+        results=list(map(entry_keys, extras)),
+        extra=object_keys(responses, extras),
+        margin_limit=margin_limit,
+        mu=mu,
     )
 
 
 def response_document(response: Response[Any]) -> Document:
     """Return the document of one response."""
-    agreement = compare_models(response.body, response.motion, options=response.options)
-    return document([flag_near_flip(response)], response.body, [{"agreement": agreement}])
+    block, motion, options = response.body, response.motion, response.options
+    assessment = assess_rock(block, motion, options, sample("rock", block, motion, options))
+    return document([flag_near_flip(response)], [{"agreement": assessment.comparison, "assessment": assessment}])

@@ -7,27 +7,17 @@ from typing import Annotated, Any
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
-from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.core.results import Response
-from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.solve import SlideOutcome
+from seisblock.output.json.entries import entry_type, to_entry
+from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.solver import document as solver_document
+from seisblock.output.json.solver import solver_schema
 from seisblock.records import Record
 from seisblock.references import papers
-from seisblock.report.json.entries import entry_type, outcome_type, parameters_type, to_entry, to_outcome_entry, to_parameters
-from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.sliding import SlidePoint
 
 FloatTuple = tuple[float, ...]
-
-SLIDE_PARAMETERS = parameters_type(
-    "SlideParameters",
-    SlidingBase,
-    SlideOptions,
-    extra={
-        "vertical_scale": Annotated[float, Meta(description="Factor on the vertical component, 0 if it does not act.")],
-        "kappa": Annotated[float, Meta(description="Kinetic over static friction.")],
-    },
-)
 
 
 class SlideStudyParameters(Struct, frozen=True, kw_only=True):
@@ -55,25 +45,17 @@ class SlideStudyParameters(Struct, frozen=True, kw_only=True):
     gravity_m_s2: float
 
 
-SLIDE_RESULT = outcome_type("SlideResult", SlideOutcome)
 SLIDE_POINT = entry_type("SlidePointResult", SlidePoint, aliases={"vertical": "vertical_scale"})
 AZIMUTHS_KEY: dict[str, Any] = {
     "azimuths": Annotated[list[SLIDE_POINT], Meta(description="All directions of a sweep.")] | UnsetType  # type: ignore[valid-type]
 }
-SLIDE = DocumentSchema("slide", SLIDE_PARAMETERS, SLIDE_RESULT, AZIMUTHS_KEY)
+SLIDE = solver_schema("slide", extra=AZIMUTHS_KEY)
 STUDY = DocumentSchema("slide", SlideStudyParameters, SLIDE_POINT, name="study")
 
 
 def document(responses: Sequence[Response[SlideOutcome]], sweep: Sequence[SlidePoint] = ()) -> Document:
     """Return the document of one run per direction, and of the azimuth sweep."""
-    base: SlidingBase = responses[0].body
-    return SLIDE.document(
-        to_parameters(SLIDE_PARAMETERS, base, responses[0].options, mu_kinetic=base.kinetic, kappa=base.kappa),
-        (to_outcome_entry(SLIDE_RESULT, response) for response in responses),
-        citations=[key for response in responses for key in response.citations],
-        warnings=[text for response in responses for text in response.warnings],
-        azimuths=[point_entry(point) for point in sweep] or UNSET,
-    )
+    return solver_document(responses, SLIDE, extra={"azimuths": [point_entry(point) for point in sweep] or UNSET})
 
 
 def study_document(parameters: Mapping[str, Any], points: Iterable[tuple[Record, SlidePoint]], warnings: Sequence[str]) -> Document:

@@ -12,10 +12,10 @@ from msgspec import UNSET, Meta, Struct, UnsetType
 from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.core.typing import FloatArray
 from seisblock.models.rock.options import RockOptions
+from seisblock.output.json.entries import parameters_type, to_parameters
+from seisblock.output.json.schema import Document, DocumentSchema, Result
 from seisblock.records import Motion
 from seisblock.references import papers
-from seisblock.report.json.entries import parameters_type, to_parameters
-from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, ModeMap
 from seisblock.studies.rocking.spectrum import RockingSpectrum
 from seisblock.studies.sliding import SlidePoint

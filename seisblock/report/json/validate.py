@@ -7,7 +7,7 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result
 from seisblock.validation.case import CaseResult, count_verdicts, count_verdicts_by_kind, sort_by_verdict
 
 

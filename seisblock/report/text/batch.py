@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from seisblock.core.i18n import N_, format_share, gettext
-from seisblock.report.text.tables import styled_line, table
+from seisblock.output.text.tables import styled_line, table
 from seisblock.studies.batch.tally import Tally
 
 MAX_BODIES = 20
@@ -44,6 +44,14 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     total = gettext(
         _EVENT_COUNT_TEXTS.get(event, N_("event in {happened} of {answers} cases")), happened=tally.event_count, answers=tally.answers
     )
+    if tally.objects < tally.answers:
+        total = gettext(
+            "{event}: {happened} of {objects} objects under at least one component; {total}",
+            event=gettext(_EVENT_HEADINGS.get(event, N_("event"))),
+            happened=tally.object_events,
+            objects=tally.objects,
+            total=total,
+        )
     yield styled_line(
         gettext("{whole} (bodies: {bodies}, records: {records})", whole=total, bodies=len(tally.bodies), records=tally.records), "bold"
     )
@@ -51,13 +59,13 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     if bodies and tally.answers:
         header = [
             gettext("body"),
-            gettext("total"),
+            gettext("objects"),
             gettext(_EVENT_HEADINGS.get(event, N_("event"))),
             gettext("share"),
             gettext("no result"),
         ]
         rows = [
-            [gettext(c.body), c.answers, c.events, format_share(c.events / c.answers) if c.answers else None, c.failures]
+            [gettext(c.body), c.objects, c.object_events, format_share(c.object_events / c.objects) if c.objects else None, c.failures]
             for c in bodies[:MAX_BODIES]
         ]
         caption = gettext("{count} more bodies in the file", count=len(bodies) - MAX_BODIES) if len(bodies) > MAX_BODIES else ""

@@ -11,9 +11,9 @@ from seisblock.bodies.scan.azimuths import ScanAzimuth
 from seisblock.bodies.scan.body import min_slenderness
 from seisblock.bodies.scan.scan import Scan
 from seisblock.core.i18n import N_, gettext
-from seisblock.report.io.atomic import write_table
-from seisblock.report.text.tables import Part, acceleration_cell, format_fixed, format_number, styled_line, table
-from seisblock.report.units_display import acceleration_unit, format_length, length_cell, length_unit
+from seisblock.output.io.atomic import write_table
+from seisblock.output.text.tables import Part, acceleration_cell, format_fixed, format_number, styled_line, table
+from seisblock.output.units_display import acceleration_unit, format_length, length_cell, length_unit
 
 PLANE = N_(
     "in the vertical plane of the azimuth, about the horizontal tangent line of the base; rotation about a corner to "

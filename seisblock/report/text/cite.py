@@ -7,8 +7,8 @@ from typing import Any
 
 from rich.padding import Padding
 
+from seisblock.output.text.tables import styled_line
 from seisblock.references.reference import Reference
-from seisblock.report.text.tables import styled_line
 
 
 def reference_lines(references: Sequence[Reference]) -> Iterator[Any]:

@@ -10,14 +10,14 @@ from rich.text import Text
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.criteria.compare import ACCELERATION, CriterionResult, unique_criteria
-from seisblock.report.describe_wear import describe_edges
-from seisblock.report.io.history_csv import write_by_record
+from seisblock.models.respond.describe import outcome_text
+from seisblock.models.rock.describe import verdict
+from seisblock.output.describe_wear import describe_edges
+from seisblock.output.io.history_csv import write_by_record
+from seisblock.output.text.shaking import shaking_text
+from seisblock.output.text.tables import DASH, Part, format_number, format_range, group_answers, side_by_side, styled_line, table
+from seisblock.output.units_display import acceleration_unit, velocity_unit
 from seisblock.report.text.model_comparison import agreement_line, spread_line
-from seisblock.report.text.respond import outcome_text
-from seisblock.report.text.rock import verdict
-from seisblock.report.text.shaking import shaking_text
-from seisblock.report.text.tables import DASH, Part, format_number, format_range, group_answers, side_by_side, styled_line, table
-from seisblock.report.units_display import acceleration_unit, velocity_unit
 from seisblock.studies.criteria_comparison import CriteriaComparison
 from seisblock.studies.respond.best_estimate import BestEstimate
 
@@ -116,12 +116,12 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
     for row in frequency_free:
         size, unit = shaking if row.unit == ACCELERATION else speed
         threshold_text = f"{format_number(row.threshold / size)} {unit}"
-        cells.append([gettext(row.criterion), _formula(row), threshold_text, _ratio_cell(row, card)])
+        cells.append([gettext(row.criterion), formula_text(row), threshold_text, _ratio_cell(row, card)])
     yield table(title, [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio")], cells)
 
     frequencies = {row.frequency: row.frequency_hz for row in card.rows if row.frequency is not None}
     columns = [f"{gettext(HEADINGS.get(key, key))}\n{hz:.2f} Hz" for key, hz in frequencies.items() if hz is not None]
-    names = list(dict.fromkeys((row.criterion, _formula(row)) for row in card.rows if row.frequency is not None))
+    names = list(dict.fromkeys((row.criterion, formula_text(row)) for row in card.rows if row.frequency is not None))
     rows_by_key = {(row.criterion, row.frequency): row for row in card.rows}
     body = []
     for name, formula in names:
@@ -152,7 +152,7 @@ def format_ratio(row: CriterionResult) -> str:
     return f"{value:.{decimals}f}"
 
 
-def _formula(row: CriterionResult) -> str:
+def formula_text(row: CriterionResult) -> str:
     """Return the source of a criterion without citation brackets."""
     return row.where.replace("[", "").replace("]_", "")
 

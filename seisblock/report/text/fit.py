@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.core.i18n import N_, format_percent, gettext
-from seisblock.report.text.tables import DASH, format_number, format_range, format_share_interval, styled_line, table
+from seisblock.output.text.tables import DASH, format_number, format_range, format_share_interval, styled_line, table
 from seisblock.studies.fit.cross_validation import HeldOutScores
 from seisblock.studies.fit.dataset import FELL, MOVED
 from seisblock.studies.fit.fit import BlockFit

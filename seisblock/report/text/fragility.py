@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.report.text.tables import DASH, details, format_number, format_range, styled_line, table
-from seisblock.report.units_display import length_unit
+from seisblock.output.text.tables import DASH, details, format_number, format_range, styled_line, table
+from seisblock.output.units_display import length_unit
 from seisblock.studies.fragility.damage_states import SLIP, describe_limit
 from seisblock.studies.fragility.estimate import CLOUD, IDA, STRIPES
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -87,7 +87,7 @@ def verdict(study: FragilityStudy, curve: Fragility, *, gal: bool) -> str:
         "{body}, {limit}: median {im} {median}, beta {beta:.2f}",
         body=gettext(curve.body),
         limit=limit_label(curve.limit, gal=gal),
-        im=study.measure.label,
+        im=gettext(study.measure.label),
         median=f"{format_number((curve.median or 0.0) / size, 3)} {unit}".strip(),
         beta=curve.beta or 0.0,
     )
@@ -97,7 +97,7 @@ def _curve_table(study: FragilityStudy, *, gal: bool) -> Any:
     size, unit = study.measure.display_unit(gal=gal)
     bodies = list(dict.fromkeys(curve.body for curve in study.curves))
     has_bodies = len(bodies) > 1
-    name = f"{study.measure.label} ({unit})" if unit else study.measure.label
+    name = f"{gettext(study.measure.label)} ({unit})" if unit else gettext(study.measure.label)
     header = [*([gettext("body")] if has_bodies else []), gettext("limit"), name, gettext("beta"), gettext("not monotone"), gettext("fits")]
     rows = [
         [
@@ -179,7 +179,7 @@ def _measure_table(curve: Fragility, *, is_labelled: bool, gal: bool) -> Any:
         measure = intensity_measure(row_measure.im)
         size, unit = measure.display_unit(gal=gal)
         sufficiency = {test.against: f"{test.slope_ratio:+.2f} (p {test.probability:.2g})" for test in row_measure.sufficiency}
-        label = f"{measure.label} ({unit})" if unit else measure.label
+        label = f"{gettext(measure.label)} ({unit})" if unit else gettext(measure.label)
         rows.append(
             [
                 label,

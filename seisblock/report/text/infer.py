@@ -6,9 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from seisblock.core.i18n import N_, gettext
-from seisblock.records import Record
-from seisblock.report.text.tables import (
+from seisblock.core.i18n import N_, format_share, gettext
+from seisblock.output.text.tables import (
     DASH,
     acceleration_cell,
     format_acceleration,
@@ -17,14 +16,17 @@ from seisblock.report.text.tables import (
     group_answers,
     styled_line,
     table,
+    with_notes,
 )
-from seisblock.report.units_display import acceleration_unit, format_length, length_cell, length_unit, velocity_unit
+from seisblock.output.units_display import acceleration_unit, format_length, length_cell, length_unit, velocity_unit
+from seisblock.records import Record
 from seisblock.studies.survey.assumptions import Assumptions
 from seisblock.studies.survey.estimate import Interval, ShakingEstimate, split_stone_label
 from seisblock.studies.survey.joint import JointEstimate
 
 if TYPE_CHECKING:
     from seisblock.studies.survey.scale_search import ScaleFactors
+from seisblock.studies.survey.twist import FactorInterval, TwistEstimate
 
 
 def estimate_tables(
@@ -102,11 +104,14 @@ def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, leve
         )
         values = {"who": label, "pga": f"{pga} {acceleration_unit(gal=gal).name}", "at": at, "intensity": _intensity(estimate)}
         if estimate.bound is not None:
-            yield gettext("{who}: PGA {pga} at {at}; JMA intensity {intensity}.", **values)
-            continue
-        low, high = (acceleration_cell(end, gal=gal) for end in estimate.pga_interval_m_s2)
-        text = N_("{who}: PGA {pga} ({low} to {high}, {level:g%} interval) at {at}; JMA intensity {intensity}.")
-        yield gettext(text, low=low, high=high, level=level, **values)
+            text = gettext("{who}: PGA {pga} at {at}; JMA intensity {intensity}.", **values)
+        else:
+            low, high = (acceleration_cell(end, gal=gal) for end in estimate.pga_interval_m_s2)
+            template = N_("{who}: PGA {pga} ({low} to {high}, {level:g%} interval) at {at}; JMA intensity {intensity}.")
+            text = gettext(template, low=low, high=high, level=level, **values)
+        by_rule = estimate.jma_class_by_rule
+        notes = [] if by_rule is None else [gettext("By the surveyors' rule: class {name}.", name=gettext(by_rule))]
+        yield with_notes(text, notes)
 
 
 def _format_interval(interval: Interval, unit: float) -> str:
@@ -194,5 +199,75 @@ def factor_csv(results: Sequence[tuple[Record, ScaleFactors]]) -> tuple[list[str
         [record.station or record.source, result.component, scale, scale * result.pga_m_s2, value]
         for record, result in results
         for scale, value in zip(*result.curve, strict=True)
+    ]
+    return header, rows
+
+
+def twist_tables(
+    results: Sequence[tuple[Record, TwistEstimate]], station: FactorInterval | None, *, level: float, limit: float, gal: bool
+) -> Iterator[Any]:
+    """Yield a sentence per record, and the PGA at the station of several candidate records."""
+    for heading, _ in group_answers(
+        results, lambda result: result[0], lambda result: [styled_line(_twist_sentence(result[1], level, limit, gal=gal), "bold")]
+    ):
+        yield from heading
+    if station is not None:
+        yield styled_line(
+            gettext(
+                "Station, all records: PGA {pga} ({level} interval {low} to {high}).",
+                pga=format_acceleration(station.median, gal=gal),
+                level=format_share(level),
+                low=format_acceleration(station.low, gal=gal),
+                high=format_acceleration(station.high, gal=gal),
+            )
+        )
+
+
+def _twist_sentence(estimate: TwistEstimate, level: float, limit: float, *, gal: bool) -> str:
+    """Return the factor and PGA that explain the observed twist, with their intervals."""
+    subject = gettext("twist of {twist:g} deg", twist=estimate.twist_deg)
+    if estimate.displacement_m is not None:
+        length = format_length(estimate.displacement_m, gal=gal)
+        subject = gettext("{twist} and displacement of {length}", twist=subject, length=length)
+    if estimate.scale is None and estimate.largest_twist_deg >= estimate.twist_deg:
+        return gettext(
+            "{name}: {what}: too few of {runs} runs agree for an interval (effectively {effective:.1f}); give more --runs.",
+            name=estimate.component,
+            what=subject,
+            runs=estimate.runs,
+            effective=estimate.effective_runs,
+        )
+    if estimate.scale is None or estimate.pga_m_s2 is None:
+        return gettext(
+            "{name}: {what} not explained by scale factors up to {limit:g}; largest twist without overturning {largest:.2g} deg.",
+            name=estimate.component,
+            what=subject,
+            limit=limit,
+            largest=estimate.largest_twist_deg,
+        )
+    return gettext(
+        "{name}: {what} at a scale factor of {factor:.2f} ({level} interval {low:.2f} to {high:.2f}), PGA {pga} ({pga_low} to {pga_high}); "
+        "{runs} runs, effectively {effective:.0f}.",
+        name=estimate.component,
+        what=subject,
+        factor=estimate.scale.median,
+        level=format_share(level),
+        low=estimate.scale.low,
+        high=estimate.scale.high,
+        pga=format_acceleration(estimate.pga_m_s2.median, gal=gal),
+        pga_low=format_acceleration(estimate.pga_m_s2.low, gal=gal),
+        pga_high=format_acceleration(estimate.pga_m_s2.high, gal=gal),
+        runs=estimate.runs,
+        effective=estimate.effective_runs,
+    )
+
+
+def twist_csv(results: Sequence[tuple[Record, TwistEstimate]]) -> tuple[list[str], list[list[Any]]]:
+    """Return header and rows of ``--csv``: the runs behind the interval."""
+    header = ["record", "component", "scale", "twist_deg", "displacement_m", "overturned", "weight"]
+    rows = [
+        [record.station or record.source, estimate.component, *(getattr(run, name) for name in header[2:])]
+        for record, estimate in results
+        for run in estimate.sample
     ]
     return header, rows

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.core.i18n import N_, format_share, gettext
-from seisblock.report.text.record_info import describe_earthquake
-from seisblock.report.text.tables import Part, format_fixed, format_number, format_range, styled_line, table
-from seisblock.report.units_display import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
-from seisblock.studies.map.station_response import StationBody, StationModel
+from seisblock.core.i18n import N_, Message, format_share, gettext, join_list, lazy_gettext
+from seisblock.core.units import GAL
+from seisblock.output.text.record_info import describe_earthquake
+from seisblock.output.text.tables import Part, format_fixed, format_number, format_range, styled_line, table
+from seisblock.output.units_display import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
+from seisblock.records import Preparation
+from seisblock.studies.assessment import LIKELY, MAY, MOVES, STAYS
+from seisblock.studies.map.station_response import StationBody, StationModel, StationResult
 from seisblock.studies.map.stations import StationReport, Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison, contradictions
 
@@ -27,6 +30,14 @@ _VERDICTS: dict[str, str] = {
     "outcome": N_("{subject}: jumps at {some} of {stations}, largest response at {station}"),
     "uplifts": N_("{subject}: uplift at {some} of {stations}, largest response at {station}"),
 }
+
+_CLASSES: dict[str, str] = {
+    LIKELY: N_("{subject}: likely overturns at {some} of {stations}, largest probability at {station} ({share})"),
+    MAY: N_("{subject}: may overturn at {some} of {stations}, largest probability at {station} ({share})"),
+    MOVES: N_("{subject}: moves at {some} of {stations}, largest response at {station}"),
+    STAYS: N_("{subject}: stays at {some} of {stations}, largest response at {station}"),
+}
+"""Sentence on the most severe class of the stations."""
 
 MAX_ROWS = 40
 """Most stations in the table; the files contain all."""
@@ -47,6 +58,8 @@ def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iter
     """
     answers = [answer for answer in stations.answers if answer.pga_m_s2 is not None]
     yield styled_line(verdict(stations, model), "bold")
+    if scaling := preparation_texts(stations.preparation):
+        yield styled_line(join_list(map(gettext, scaling)), "yellow")
     if stations.earthquake is not None:
         yield styled_line(describe_earthquake(stations.earthquake, stations.origin_told))
     if len(answers) > SHORT_ROWS:
@@ -64,7 +77,7 @@ def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iter
 def _station_table(answers: Sequence[StationReport], model: StationModel | None, max_rows: int, *, gal: bool) -> Any:
     listed_answers = answers[:max_rows]
     header, rows = station_rows(listed_answers, model, gal=gal)
-    caption = " ".join(filter(None, (_omitted_text(len(answers) - max_rows), column_note(listed_answers, model))))
+    caption = "\n".join(filter(None, (_omitted_text(len(answers) - max_rows), column_note(listed_answers, model))))
     # station names need the width
     return table("", [name.replace(" (", "\n(").replace("overturns", "over-\nturns") for name in header], rows, caption=caption)
 
@@ -80,8 +93,32 @@ def column_note(answers: Sequence[StationReport], model: StationModel | None) ->
     if not isinstance(model, StationBody) or all(answer.effect.probability is None for answer in answers):
         return ""
     return gettext(
-        "overturns: nominal body in its worst azimuth; share: share of {runs} samples that overturn in that azimuth", runs=model.runs
+        "overturns: share of {runs} samples under either horizontal component; displacement: nominal body, worst azimuth", runs=model.runs
     )
+
+
+def preparation_texts(preparation: Preparation) -> list[Message]:
+    """Return how the motions differ from the recorded ones: scaling and floor.
+
+    Parameters
+    ----------
+    preparation : Preparation
+
+    Examples
+    --------
+    >>> preparation_texts(Preparation(scale=4.0))
+    ['records scaled by 4']
+    """
+    texts = []
+    if preparation.scale != 1.0:
+        texts.append(lazy_gettext("records scaled by {factor:g}", factor=preparation.scale))
+    if preparation.target_pga is not None:
+        texts.append(lazy_gettext("each record scaled to a PGA of {pga:.5g} gal", pga=preparation.target_pga / GAL))
+    if preparation.target_jma is not None:
+        texts.append(lazy_gettext("each record scaled to JMA intensity {intensity:.3g}", intensity=preparation.target_jma))
+    if preparation.floor is not None:
+        texts.append(lazy_gettext("floor motions, not ground motions"))
+    return texts
 
 
 def survey_tables(surveys: Sequence[SurveyComparison]) -> Iterator[Any]:
@@ -143,7 +180,7 @@ def station_rows(answers: Sequence[StationReport], model: StationModel | None, *
     """
     a, v = acceleration_unit(gal=gal), velocity_unit(gal=gal)
     way = length_unit((answer.effect.max_slip_m or answer.effect.max_uplift_m or 0.0 for answer in answers), gal=gal)
-    header = [gettext("station"), "km", f"PGA ({a.name})", f"PGV ({v.name})", gettext("JMA"), *_effect_header(model, way)]
+    header = [gettext("station"), gettext("dist. (km)"), f"PGA ({a.name})", f"PGV ({v.name})", gettext("JMA"), *_effect_header(model, way)]
     return header, [[*_measure_cells(answer, a, v), *_effect_cells(answer, model, way)] for answer in answers]
 
 
@@ -164,6 +201,17 @@ def verdict(survey_map: Stations, model: StationModel | None) -> str:
     if model is None:
         return gettext("{stations}, largest shaking at {station}", stations=station_text, station=worst.label)
     if isinstance(model, StationBody):
+        classes = [answer.effect.assessment.class_ for answer in answers if answer.effect.assessment is not None]
+        if classes:
+            most_severe = min(classes, key=list(_CLASSES).index)
+            return gettext(
+                _CLASSES[most_severe],
+                subject=gettext(model.name),
+                some=classes.count(most_severe),
+                stations=station_text,
+                station=worst.label,
+                share=format_share(worst.effect.probability or 0.0),
+            )
         event_count = sum(bool(answer.effect.happened) for answer in answers)
         return gettext(
             _VERDICTS.get(model.event, N_("{subject}: event at {some} of {stations}, largest response at {station}")),
@@ -208,12 +256,20 @@ def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
         return [gettext("rate"), gettext("worst azimuth")]
     header = {
         "happened": gettext(EVENT_WORDS.get(model.event, N_("event"))),
+        "class": gettext("class"),
         "overturned": gettext("overturns"),
-        "probability": gettext("share"),
+        "probability": gettext("overturns"),
         "max_slip_m": gettext("displ. ({unit})", unit=way.name),
         "max_uplift_m": gettext("uplift ({unit})", unit=way.name),
     }
-    return [*(header[name] for name in model.columns), gettext("worst azimuth")]
+    return [*(header[name] for name in _columns(model)), gettext("worst azimuth")]
+
+
+def _columns(model: StationBody) -> list[str]:
+    """Return the columns of a body: class and probability replace the verdict of the nominal body where samples were solved."""
+    if not model.runs:
+        return [name for name in model.columns if name != "probability"]
+    return ["class", *(name for name in model.columns if name not in ("happened", "overturned"))]
 
 
 def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) -> list[str]:
@@ -223,10 +279,13 @@ def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) 
     towards = format_number(None) if effect.azimuth_deg is None else f"{effect.azimuth_deg:g}°"
     if not isinstance(model, StationBody):
         return [format_number(None) if effect.rate is None else format_share(effect.rate), towards]
-    return [*(_cell(name, getattr(effect, name), way) for name in model.columns), towards]
+    return [*(_cell(name, effect, way) for name in _columns(model)), towards]
 
 
-def _cell(name: str, value: Any, way: Unit) -> str:
+def _cell(name: str, effect: StationResult, way: Unit) -> str:
+    if name == "class":
+        return format_number(None) if effect.assessment is None else gettext(effect.assessment.class_)
+    value = getattr(effect, name)
     if value is None or isinstance(value, bool):
         return format_number(value)
     return format_share(value) if name == "probability" else length_cell(value, way)

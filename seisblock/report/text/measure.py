@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+import numpy as np
 from rich.console import Group
 from rich.text import Text
 
@@ -13,11 +14,9 @@ from seisblock.core.limits import check_memory
 from seisblock.core.typing import FloatArray
 from seisblock.measures import FilterRange, RecordMeasures
 from seisblock.measures.summary import velocity_history
-from seisblock.records import Record
-from seisblock.records.process import select_component
-from seisblock.report.io.atomic import normalize_zeros
-from seisblock.report.io.history_csv import CHUNK_ROWS, concat_tables
-from seisblock.report.text.tables import (
+from seisblock.output.io.atomic import normalize_zeros
+from seisblock.output.io.history_csv import CHUNK_ROWS, concat_tables
+from seisblock.output.text.tables import (
     acceleration_cell,
     format_acceleration,
     format_number,
@@ -26,7 +25,12 @@ from seisblock.report.text.tables import (
     styled_line,
     table,
 )
-from seisblock.report.units_display import acceleration_unit, length_unit, velocity_unit
+from seisblock.output.units_display import acceleration_unit, length_unit, velocity_unit
+from seisblock.records import Record
+from seisblock.records.process import select_component
+
+SHOWN_PERIODS = (0.2, 0.5, 1.0, 2.0)
+"""Periods of the spectral accelerations in the text report, s; the JSON document has all."""
 
 
 def tables(records: Sequence[Record], answers: Sequence[RecordMeasures], *, gal: bool) -> Iterator[Group | Text]:
@@ -45,7 +49,7 @@ def tables(records: Sequence[Record], answers: Sequence[RecordMeasures], *, gal:
         yield from heading
         yield _peaks(answer, gal=gal)
         yield _frequencies_and_durations(answer, gal=gal)
-        yield styled_line("\n".join(_sensitivity_lines(answer, gal=gal)))
+        yield styled_line("\n".join((*_spectrum_lines(answer, gal=gal), *_sensitivity_lines(answer, gal=gal))))
 
 
 def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
@@ -54,7 +58,10 @@ def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
     corner = answer.conventions.velocity_highpass_hz
     return table(
         gettext("Peak values and energy"),
-        ("", f"PGA ({a.name})", gettext("at (s)"), f"PGV ({v.name})", f"PGD ({d.name})", gettext("Arias (m/s)"), "5-95 % (s)"),
+        [
+            *("", f"PGA ({a.name})", gettext("at (s)"), f"PGV ({v.name})", f"PGD ({d.name})"),
+            *(name.replace(" (", "\n(") for name in ("CAV (m/s)", gettext("Arias (m/s)"), "5-95 % (s)")),
+        ],
         [
             (
                 m.component,
@@ -62,6 +69,7 @@ def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
                 format_seconds(m.time_of_pga_s),
                 format_number(m.pgv_m_s / v.size),
                 format_number(m.pgd_m / d.size),
+                format_number(m.cav_m_s),
                 format_number(m.arias_m_s),
                 format_seconds(m.significant_duration_s),
             )
@@ -121,6 +129,25 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
         if worst.azimuth_deg is not None:
             sentence += gettext(" towards azimuth {azimuth:.0f}°", azimuth=worst.azimuth_deg)
         yield sentence
+
+
+def _spectrum_lines(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
+    """Yield RotD50 and RotD100 at the periods of the usual hazard maps."""
+    spectrum = answer.spectra
+    if spectrum is None:
+        return
+    size, unit = acceleration_unit(gal=gal)
+    median, largest = (
+        " / ".join(format_number(float(np.interp(np.log(t), np.log(spectrum.period_s), row)) / size, 3) for t in SHOWN_PERIODS)
+        for row in (spectrum.rotd50_m_s2, spectrum.rotd100_m_s2)
+    )
+    yield gettext(
+        "Sa (5 %) at {periods} s: RotD50 {median}, RotD100 {largest} {unit}",
+        periods=" / ".join(f"{t:g}" for t in SHOWN_PERIODS),
+        median=median,
+        largest=largest,
+        unit=unit,
+    )
 
 
 def _sensitivity_lines(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:

@@ -11,22 +11,22 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.core.i18n import N_, format_share, gettext, join_list, join_sentences
-from seisblock.models.respond.describe import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
+from seisblock.criteria.initiation import Mode
+from seisblock.output.io.history_csv import write_by_record
+from seisblock.output.text.tables import Part, details, group_answers, styled_line, table
 from seisblock.records import Motion
-from seisblock.report.io.history_csv import write_by_record
 from seisblock.report.text.spectrum import rows_per_table, shorten, thin_indices
-from seisblock.report.text.tables import Part, details, group_answers, styled_line, table
 from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, NO_ANSWER, ModeMap
 
 Maps = Sequence[tuple[Motion, ModeMap]]
 
 MAX_ROWS, MAX_COLUMNS = 20, 60
-LETTERS = {REST: ".", SLIDE: "s", ROCK: "r", SLIDE_ROCK: "b", FLIGHT: "f", OVERTURNED: "#", NO_ANSWER: "?"}
+LETTERS = {Mode.REST: ".", Mode.SLIDE: "s", Mode.ROCK: "r", Mode.SLIDE_ROCK: "b", Mode.FLIGHT: "f", Mode.OVERTURNED: "#", NO_ANSWER: "?"}
 """Letter of each mode on the map."""
 
 SHARES = {
-    REST: N_("{share} at rest"), SLIDE: N_("{share} slide"), ROCK: N_("{share} rock"),
-    SLIDE_ROCK: N_("{share} slide-rock"), FLIGHT: N_("{share} in flight"), OVERTURNED: N_("{share} overturn"),
+    Mode.REST: N_("{share} at rest"), Mode.SLIDE: N_("{share} slide"), Mode.ROCK: N_("{share} rock"),
+    Mode.SLIDE_ROCK: N_("{share} slide-rock"), Mode.FLIGHT: N_("{share} in flight"), Mode.OVERTURNED: N_("{share} overturn"),
     NO_ANSWER: N_("{share} without result"),
 }  # fmt: skip
 

@@ -6,9 +6,9 @@ from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.core.i18n import N_, format_percent, format_share, gettext, lazy_gettext
-from seisblock.report.describe_wear import sampled_edges
-from seisblock.report.text.tables import Part, styled_line, with_notes
-from seisblock.studies.model_comparison import GRAVESTONES, ModelComparison, ModelResult
+from seisblock.output.describe_wear import sampled_edges
+from seisblock.output.text.tables import Part, styled_line, with_notes
+from seisblock.studies.model_comparison import ModelComparison, ModelResult
 from seisblock.studies.parallel import left_out_versions
 from seisblock.studies.rocking.perturb import Perturbation
 from seisblock.studies.survey.model_rates import ModelRate
@@ -143,11 +143,9 @@ def rates_line(name: str, rates: tuple[ModelRate, ...]) -> str:
     head = gettext("{name}, overturning rate by model", name=name) if name else gettext("Overturning rate by model")
     texts = [gettext("{rate:.0%} ({model})", rate=opinion.rate, model=model_label(opinion)) for opinion in rates]
     low, high = min(opinion.rate for opinion in rates), max(opinion.rate for opinion in rates)
-    values = {"head": head, "rates": texts, "made": gettext(GRAVESTONES)}
     if low > 0.0:
-        text = N_("{head}: {rates} (largest over smallest {spread:.1f}). Derived for gravestones: {made}.")
-        return gettext(text, **values, spread=high / low)
-    return gettext("{head}: {rates}. Derived for gravestones: {made}.", **values)
+        return gettext("{head}: {rates} (largest over smallest {spread:.1f}).", head=head, rates=texts, spread=high / low)
+    return gettext("{head}: {rates}.", head=head, rates=texts)
 
 
 def format_chance(share: float) -> str:
@@ -192,7 +190,7 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
     else:
         text = N_("overturning probability {share} ({fallen} of {runs} samples; 95 % CI {low} to {high}, {of}).")
     s = perturbation.spread
-    sizes = lazy_gettext("size ±{size}, slenderness ±{slenderness}", size=format_share(s.size), slenderness=format_share(s.slenderness))
+    sizes = lazy_gettext("width and height ±{share}", share=format_share(s.size))
     variation = gettext(
         "samples with {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
         sizes=sizes,

@@ -8,12 +8,8 @@ from typing import Any
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.core.i18n import N_, format_percent, gettext
-from seisblock.records import Record
-from seisblock.report.io.history_csv import concat_tables
-from seisblock.report.text.measure import filter_range_text
-from seisblock.report.text.model_comparison import rates_line
-from seisblock.report.text.spectrum import thin_indices
-from seisblock.report.text.tables import (
+from seisblock.output.io.history_csv import concat_tables
+from seisblock.output.text.tables import (
     DASH,
     Part,
     acceleration_cell,
@@ -24,8 +20,13 @@ from seisblock.report.text.tables import (
     styled_line,
     table,
 )
-from seisblock.report.units_display import acceleration_unit
-from seisblock.studies.survey.assessment import CemeteryRate
+from seisblock.output.units_display import acceleration_unit
+from seisblock.records import Record
+from seisblock.report.text.measure import filter_range_text
+from seisblock.report.text.model_comparison import rates_line
+from seisblock.report.text.spectrum import thin_indices
+from seisblock.report.text.stones import agreement_text
+from seisblock.studies.survey.assessment import EITHER_COMPONENT, CemeteryRate
 from seisblock.studies.survey.overturning_rate import CurvePoint
 
 CAPTION = N_(
@@ -85,7 +86,10 @@ def tables(
         groups, lambda group: group[0], lambda group: map(styled_line, verdicts(cemetery.name, group[1], gal=gal))
     ):
         yield from heading
-        sentences = map(styled_line, (*_filter_lines(results, gal=gal), *_model_lines(results), *_dowel_lines(results)))
+        sentences = map(
+            styled_line,
+            (*_expected_lines(results), *_filter_lines(results, gal=gal), *_model_lines(results, gal=gal), *_dowel_lines(results)),
+        )
         yield from _rates(title, results, list(sentences), gal=gal, confidence=confidence)
     if not groups:
         yield styled_line(median_pga_text(cemetery.name, curve, gal=gal))
@@ -104,16 +108,21 @@ def _rates(title: str, results: Sequence[CemeteryRate], sentences: Sequence[Any]
 
 def verdicts(cemetery: str, results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
     """Yield a sentence on the number of overturned stones per shaking, or one for many shakings."""
-    main_results = [result for result in results if not result.of]
+    # a simulated stone counts if either component overturns it
+    objects = [result for result in results if result.component == EITHER_COMPONENT]
+    main_results = objects or [result for result in results if not result.of]
     if len(main_results) > MAX_VERDICTS:
         low, high = (f(result.fallen for result in main_results) for f in (min, max))
         text = N_("{cemetery}: {low} to {high} of {stones} stones overturn, depending on the motion.")
         yield gettext(text, cemetery=cemetery, low=low, high=high, stones=main_results[0].stones)
         return
     for result in main_results:
-        shaking = f"{format_acceleration(result.pga_m_s2, gal=gal)}, {format_number(result.equivalent_frequency_hz, 3)} Hz"
+        shaking = _shaking_label(result, gal=gal)
         text = N_("{name}: {fallen} of {stones} stones overturn ({share:.0%}).")
-        yield gettext(text, name=result.component or shaking, fallen=result.fallen, stones=result.stones, share=result.rate)
+        name = cemetery if objects else result.component or shaking
+        yield gettext(text, name=name, fallen=result.fallen, stones=result.stones, share=result.rate)
+        if result.contingency is not None:
+            yield agreement_text(result.contingency)
 
 
 def median_pga_text(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) -> str:
@@ -147,6 +156,8 @@ def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confi
 
 
 def _row_label(result: CemeteryRate) -> str:
+    if result.component == EITHER_COMPONENT:
+        return gettext(EITHER_COMPONENT)
     return f"{gettext(result.component or '')} ({result.of})" if result.of else result.component or ""
 
 
@@ -154,6 +165,14 @@ def _format_ratio(result: CemeteryRate) -> str:
     """Return the smallest overturning H/B: the threshold of the criterion, or that of the least slender overturned stone."""
     value = result.least_overturned_ratio if result.threshold_ratio is None else result.threshold_ratio
     return DASH if value is None else f"{value:.2f}"
+
+
+def _expected_lines(results: Sequence[CemeteryRate]) -> Iterator[str]:
+    """Yield the rate expected from the probabilities of simulated stones under both components."""
+    for result in results:
+        if result.component == EITHER_COMPONENT and result.mean_probability is not None:
+            text = N_("either: stones that one of the components overturns; expected rate {rate:.2f} (mean probability of the stones)")
+            yield gettext(text, rate=result.mean_probability)
 
 
 def _filter_lines(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
@@ -167,10 +186,17 @@ def _filter_lines(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str
             )
 
 
-def _model_lines(results: Sequence[CemeteryRate]) -> Iterator[str]:
-    """Yield the rates by model, per shaking."""
-    for result in results:
-        if not result.of and (text := rates_line(result.component or "", result.models)):
+def _shaking_label(result: CemeteryRate, *, gal: bool) -> str:
+    """Return PGA and equivalent frequency of a shaking."""
+    return f"{format_acceleration(result.pga_m_s2, gal=gal)}, {format_number(result.equivalent_frequency_hz, 3)} Hz"
+
+
+def _model_lines(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
+    """Yield the rates by model, per shaking; numbers name one of several shakings without a record."""
+    plain = [result for result in results if not result.of]
+    for result in plain:
+        name = result.component or (_shaking_label(result, gal=gal) if len(plain) > 1 else "")
+        if text := rates_line(name, result.models):
             yield text
 
 

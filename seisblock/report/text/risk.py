@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.core.i18n import N_, format_share, gettext, join_list
+from seisblock.output.text.tables import DASH, format_number, format_range, styled_line, table
 from seisblock.report.text.fragility import limit_label
-from seisblock.report.text.tables import DASH, format_number, format_range, styled_line, table
 from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
 from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.hazard.curve import Hazard
@@ -80,14 +80,14 @@ def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
 
 def _measure_heading(measure: IntensityMeasure, name: str, *, gal: bool) -> str:
     unit = measure.display_unit(gal=gal)[1]
-    return f"{name} {measure.label} ({unit})" if unit else f"{name} {measure.label}"
+    return f"{name} {gettext(measure.label)} ({unit})" if unit else f"{name} {gettext(measure.label)}"
 
 
 def _disaggregation_table(name: str, risk: Risk, hazard: Hazard, *, gal: bool) -> Any:
     """Return the table of contributions by intensity."""
     measure = intensity_measure(hazard.im)
     size, unit = measure.display_unit(gal=gal)
-    label = f"{measure.label} ({unit})" if unit else measure.label
+    label = f"{gettext(measure.label)} ({unit})" if unit else gettext(measure.label)
     shares = [item for item in risk.disaggregation if item.share >= MIN_SHARE]
     rows = [[interval_text(item, size), f"{item.annual_rate:.3g}", f"{100.0 * item.share:.0f}"] for item in shares]
     return table(name, [label, gettext("rate (1/year)"), "%"], rows, caption=gettext("disaggregation by intensity"))

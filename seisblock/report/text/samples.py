@@ -11,8 +11,8 @@ from rich.padding import Padding
 
 from seisblock.core.errors import OutputError, RecordNotFoundError, os_error_text
 from seisblock.core.i18n import gettext
-from seisblock.report.io.atomic import atomic_write
-from seisblock.report.text.tables import styled_line
+from seisblock.output.io.atomic import atomic_write
+from seisblock.output.text.tables import styled_line
 from seisblock.samples import Sample, list_samples, sample_directory
 
 NOTICE, COPIED_NOTICE = "NOTICE", "seisblock-samples-NOTICE.txt"
@@ -45,10 +45,10 @@ def sample_lines(samples: Sequence[Sample]) -> Iterator[Any]:
         peaks = ", ".join(f"{code} {value:.0f}" for code, value in sample.pga_gal.items())
         heading = styled_line(sample.name, "bold").append(f"  {gettext(sample.kind)}", style="not bold dim")
         yield heading.append(f"  PGA {peaks} gal" if peaks else "", style="not bold")
-        origin = gettext("origin: as above") if sample.origin == last_origin else gettext("origin: {origin}", origin=sample.origin)
+        origin = gettext("origin: as above") if sample.origin == last_origin else gettext("origin: {origin}", origin=gettext(sample.origin))
         last_origin = sample.origin
         yield Padding(styled_line(gettext(sample.description)), (0, 0, 0, 2))
-        yield Padding(styled_line(f"{gettext('licence: {licence}', licence=sample.licence)}\n{origin}", "dim"), (0, 0, 1, 2))
+        yield Padding(styled_line(f"{gettext('licence: {licence}', licence=gettext(sample.licence))}\n{origin}", "dim"), (0, 0, 1, 2))
 
 
 def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool = False) -> list[Path]:

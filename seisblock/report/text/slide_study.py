@@ -11,12 +11,12 @@ import numpy as np
 from rich.text import Text
 
 from seisblock.core.i18n import N_, gettext
+from seisblock.output.io.history_csv import concat_tables
+from seisblock.output.text.tables import DASH, details, group_answers, styled_line, table
+from seisblock.output.units_display import Unit, format_length, length_cell, length_unit
 from seisblock.records import Record
-from seisblock.report.io.history_csv import concat_tables
 from seisblock.report.json.slide import SLIDE_POINT, point_entry
 from seisblock.report.text.spectrum import shorten
-from seisblock.report.text.tables import DASH, group_answers, styled_line, table
-from seisblock.report.units_display import Unit, format_length, length_cell, length_unit
 from seisblock.studies.sliding import SlidePoint
 
 Points = Sequence[SlidePoint]
@@ -50,6 +50,16 @@ class Arrangement:
     def name(self, point: SlidePoint) -> str:
         """Return the name of the curve of a point."""
         return ", ".join(f"{gettext(SYMBOLS[key]).split(' (')[0]} {getattr(point, key):g}" for key in self.curves)
+
+
+def azimuth_table(sweep: Points, *, gal: bool = True) -> Iterator[Any]:
+    """Yield the table of all azimuths of a sweep."""
+    if sweep:
+        yield styled_line()
+        unit = length_unit((point.max_slip_m for point in sweep), gal=gal)
+        rows = [[point.component, length_cell(point.max_slip_m, unit), length_cell(point.residual_slip_m, unit)] for point in sweep]
+        headings = N_("azimuth (deg)"), N_("max ({unit})"), N_("residual ({unit})")
+        yield details(table(gettext("All azimuths"), [gettext(heading, unit=unit.name) for heading in headings], rows))
 
 
 def study_csv(records: Sequence[Record], studies: Sequence[Points]) -> tuple[list[str], Iterator[list[Any]]]:

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
+from seisblock.output.io.history_csv import write_by_record
+from seisblock.output.text.tables import group_answers, styled_line, table
+from seisblock.output.units_display import format_length, length_cell, length_unit
 from seisblock.records import Motion
-from seisblock.report.io.history_csv import write_by_record
 from seisblock.report.text.spectrum import shorten, thin_indices
-from seisblock.report.text.tables import group_answers, styled_line, table
-from seisblock.report.units_display import format_length, length_cell, length_unit
 from seisblock.studies.sliding import SlidePoint
 
 Curves = Sequence[tuple[Motion, Sequence[SlidePoint]]]

@@ -12,9 +12,9 @@ import numpy as np
 
 from seisblock.core.i18n import N_, format_share, gettext
 from seisblock.core.typing import IntArray
+from seisblock.output.io.history_csv import write_by_record
+from seisblock.output.text.tables import DASH, Part, group_answers, styled_line, table
 from seisblock.records import Motion
-from seisblock.report.io.history_csv import write_by_record
-from seisblock.report.text.tables import DASH, Part, group_answers, styled_line, table
 from seisblock.studies.rocking.spectrum import RockingSpectrum
 
 Spectra = Sequence[tuple[Motion, RockingSpectrum]]

@@ -8,9 +8,9 @@ from typing import Any
 
 from seisblock.core.i18n import gettext
 from seisblock.criteria.gravestones import GravestoneFit, furukawa_fit, overturning_level, overturning_ratio
-from seisblock.report.io.atomic import write_table
-from seisblock.report.text.tables import acceleration_cell, format_acceleration, format_number, styled_line, table
-from seisblock.report.units_display import acceleration_unit
+from seisblock.output.io.atomic import write_table
+from seisblock.output.text.tables import acceleration_cell, format_acceleration, format_number, styled_line, table
+from seisblock.output.units_display import acceleration_unit
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, study_frequencies
 
 ScaledRecords = dict[str, tuple[Threshold, ...]]

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.report.io.atomic import write_table
-from seisblock.report.json.uplift import RATIO_KEYS
-from seisblock.report.text.tables import Part, details, styled_line, table
+from seisblock.output.io.atomic import write_table
+from seisblock.output.text.tables import Part, details, styled_line, table
+from seisblock.report.json.uplift_study import RATIO_KEYS
 from seisblock.studies.uplift_regions import UpliftRegion
 
 SYMBOLS = {"alpha": "α", "gamma": "γ", "beta": "β", "damping": "h", "phi": "φ", "rho": "ρ"}
@@ -72,7 +72,7 @@ def _curve_table(region: UpliftRegion, max_rows: int) -> Any:
         gettext("uplift curve"),
         ["θ/ω_1", "A/g"],
         [[f"{region.frequency_ratio[i]:.4g}", _finite_or_none(float(region.acceleration_ratio[i]))] for i in range(step - 1, n, step)],
-        caption="" if step == 1 else gettext("one row in {step} of {all}; all with --csv or --json", step=step, all=n),
+        caption="" if step == 1 else gettext("every {step}th of {all} rows; all with --csv or --json", step=step, all=n),
     )
 
 

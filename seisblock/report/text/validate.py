@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from seisblock.core.i18n import N_, gettext, lazy_gettext
-from seisblock.report.text.tables import Part, details, styled_line, table, with_notes
+from seisblock.output.text.tables import Part, details, styled_line, table, with_notes
 from seisblock.validation.case import (
     EVIDENCE_KINDS,
     VERDICTS,

@@ -9,9 +9,11 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.core.registry import SolverBody
 from seisblock.records import Record, motion_of
 from seisblock.records._validation import vertical_gain
+from seisblock.studies.azimuth_probability import Azimuth, rank_by_probability
 from seisblock.studies.azimuths import sweep_azimuths
 from seisblock.studies.respond.azimuths import RespondAzimuth, left_out_directions, respond_directions
 from seisblock.studies.rocking.azimuths import RockAzimuth, rock_directions
+from seisblock.studies.sampling import ParameterVariation
 from seisblock.studies.sliding import slide_study, worst_directions
 
 DIRECTIONS, FALLEN_DIRECTIONS = "directions", "directions_overturned"
@@ -21,14 +23,23 @@ Worst: TypeAlias = tuple[str, dict[str, int], list[str]]
 """Worst direction, counts of directions, and warnings."""
 
 
-def worst_rock(solver_body: SolverBody, record: Record) -> Worst:
-    """Return the worst direction of a rocking block."""
-    return _worst_result(rock_directions(solver_body.body, record, options=solver_body.options))
+def worst_rock(solver_body: SolverBody, record: Record, runs: int, seed: int) -> Worst:
+    """Return the worst direction of a rocking block: with samples the most probable one, else that of the single runs."""
+    results = rock_directions(solver_body.body, record, options=solver_body.options)
+    return _worst_result(_ranked("rock", solver_body, record, results, runs, seed))
 
 
-def worst_respond(solver_body: SolverBody, record: Record) -> Worst:
-    """Return the worst direction of a free-standing body."""
-    return _worst_result(respond_directions(solver_body.body, record, solver_body.options))
+def worst_respond(solver_body: SolverBody, record: Record, runs: int, seed: int) -> Worst:
+    """Return the worst direction of a free-standing body: with samples the most probable one, else that of the single runs."""
+    results = respond_directions(solver_body.body, record, solver_body.options)
+    return _worst_result(_ranked("respond", solver_body, record, results, runs, seed))
+
+
+def _ranked(solver: str, body: SolverBody, record: Record, results: list[Azimuth], runs: int, seed: int) -> list[Azimuth]:
+    """Return the directions in the order of their probability; without samples as they are."""
+    if not runs or not any(result.moves for result in results):
+        return results
+    return rank_by_probability(solver, body.body, record, results, body.options, runs, ParameterVariation(), seed=seed)
 
 
 def _worst_result(results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
@@ -37,7 +48,7 @@ def _worst_result(results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> 
     return f"{results[0].azimuth_deg:g}", {DIRECTIONS: solved_count, FALLEN_DIRECTIONS: fall_count}, left_out_directions(results)
 
 
-def worst_slide(solver_body: SolverBody, record: Record) -> Worst:
+def worst_slide(solver_body: SolverBody, record: Record, runs: int, seed: int) -> Worst:
     """Return the worst direction of a sliding object."""
     base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
     motions = [motion_of(record, f"{azimuth:g}") for azimuth in sweep_azimuths(base)]

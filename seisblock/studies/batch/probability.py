@@ -1,4 +1,4 @@
-"""Probability columns of a batch: share of samples of body and motion in which the body overturns or moves."""
+"""Probability columns of a batch: share of samples of body and motion in which the body overturns or moves, and its class."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 from seisblock.core.registry import SolverBody
 from seisblock.records import Motion
+from seisblock.studies.assessment import classify
 from seisblock.studies.parallel import left_out_versions
-from seisblock.studies.respond.probability import respond_probability
-from seisblock.studies.rocking.perturb import perturb
+from seisblock.studies.sampling import sample
 
 Row = dict[str, Any]
 
@@ -21,25 +21,27 @@ PROBABILITY_COLUMNS: Mapping[str, type] = {
     "probability_overturned": float,
     "probability_low": float,
     "probability_high": float,
+    "probability_moved": float,
+    "overturning_probability": float,
+    "moved_probability": float,
+    "class": str,
 }
-MOVED_COLUMNS: Mapping[str, type] = {**PROBABILITY_COLUMNS, "probability_moved": float}
+"""Columns and their types; `probability_overturned` and `probability_moved` are the older names of two of them."""
 
 
-def respond_probability_columns(solver_body: SolverBody, motion: Motion, runs: int, seed: int) -> Row:
-    """Return the probability columns of a free-standing body."""
-    result = respond_probability(solver_body.body, motion, solver_body.options, runs=runs, seed=seed)
-    low, high = result.interval
-    return _probability_columns(result.runs, result.overturned, low, high, result.no_answer) | {"probability_moved": result.moved}
-
-
-def rock_probability_columns(solver_body: SolverBody, motion: Motion, runs: int, seed: int) -> Row:
-    """Return the probability columns of a rocking block."""
-    result = perturb(solver_body.body, motion, runs, seed=seed, options=solver_body.options)
-    return _probability_columns(result.runs, result.probability, *result.probability_interval, result.no_answer)
-
-
-def _probability_columns(runs: int, overturned: float, low: float, high: float, no_answer: tuple[int, ...]) -> Row:
-    """Return an overturning probability as columns, with a warning for samples without a result."""
-    row: Row = {"runs": runs, "probability_overturned": overturned, "probability_low": low, "probability_high": high}
-    warning = left_out_versions(no_answer, runs)
+def probability_columns(solver_body: SolverBody, motion: Motion, runs: int, seed: int, *, solver: str) -> Row:
+    """Return the probability columns of a body, with a warning for samples without a result."""
+    samples = sample(solver, solver_body.body, motion, solver_body.options, runs, seed=seed)
+    overturned, moved, (low, high) = samples.probability, samples.moved_probability(), samples.interval
+    row: Row = {
+        "runs": samples.completed,
+        "probability_overturned": overturned,
+        "probability_low": low,
+        "probability_high": high,
+        "probability_moved": moved,
+        "overturning_probability": overturned,
+        "moved_probability": moved,
+        "class": classify(overturned, moved),
+    }
+    warning = left_out_versions(samples.stopped, samples.completed)
     return row if warning is None else {**row, LEFT_OUT: warning}

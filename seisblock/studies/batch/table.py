@@ -11,7 +11,7 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.registry import Solver
 from seisblock.studies.batch.directions import DIRECTIONS, FALLEN_DIRECTIONS
 from seisblock.studies.batch.scalar_fields import scalar_fields
-from seisblock.studies.batch.shaking import SHAKING_COLUMNS
+from seisblock.studies.batch.shaking import BODY_COLUMNS, SHAKING_COLUMNS
 from seisblock.studies.capabilities import capabilities
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Row = Mapping[str, Any]
 
-KEY_COLUMNS: dict[str, type] = {"record": str, "path": str, "station": str, "start": str, "component": str, "body": str, "solver": str}
+KEY_COLUMNS: dict[str, type] = dict.fromkeys(("record", "path", "station", "seed_id", "start", "component", "body", "solver"), str)
 """Columns that identify a row."""
 
 REASON, WARNINGS = "failure", "warnings"
@@ -32,7 +32,7 @@ def batch_columns(solver: Solver, *, runs: int = 0, all_azimuths: bool = False) 
     directions: dict[str, type] = {DIRECTIONS: int} if all_azimuths else {}
     if all_azimuths and solver.event == "overturned":
         directions[FALLEN_DIRECTIONS] = int
-    results = {**scalar_fields(solver.outcome), **SHAKING_COLUMNS, **probability_columns}
+    results = {**scalar_fields(solver.outcome), **SHAKING_COLUMNS, **BODY_COLUMNS, **probability_columns}
     return {**KEY_COLUMNS, **directions, **results, WARNINGS: str, REASON: str}
 
 

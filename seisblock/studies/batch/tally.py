@@ -11,12 +11,17 @@ from seisblock.studies.batch.table import REASON, Row
 
 @dataclass
 class BodyCounts:
-    """Row counts of one body: with a result, without, and with the event."""
+    """Counts of one body: rows with a result, without, and with the event; objects, one per record, with a result and with the event.
+
+    An object has the event if it has it in any row of its record.
+    """
 
     body: str
     answers: int = 0
     failures: int = 0
     events: int = 0
+    objects: int = 0
+    object_events: int = 0
 
 
 @dataclass
@@ -37,6 +42,7 @@ class Tally:
     def add_rows(self, rows: Sequence[Row]) -> Sequence[Row]:
         """Count the rows of one record, and return them."""
         self.records += bool(rows)
+        objects: dict[str, bool] = {}
         for row in rows:
             reason = row.get(REASON)
             if reason:
@@ -50,7 +56,12 @@ class Tally:
                 count.failures += 1
                 continue
             count.answers += 1
-            count.events += self.solver.event_occurred(row)
+            occurred = self.solver.event_occurred(row)
+            count.events += occurred
+            objects[body] = objects.get(body, False) or occurred
+        for body, occurred in objects.items():
+            self.bodies[body].objects += 1
+            self.bodies[body].object_events += occurred
         return rows
 
     @property
@@ -67,6 +78,16 @@ class Tally:
     def event_count(self) -> int:
         """Number of rows with the event."""
         return sum(count.events for count in self.bodies.values())
+
+    @property
+    def objects(self) -> int:
+        """Number of objects, one per body and record, with a result."""
+        return sum(count.objects for count in self.bodies.values())
+
+    @property
+    def object_events(self) -> int:
+        """Number of objects with the event in any row."""
+        return sum(count.object_events for count in self.bodies.values())
 
     def sorted_counts(self) -> list[BodyCounts]:
         """Return the counts of the bodies, most events first."""

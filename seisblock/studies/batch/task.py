@@ -7,16 +7,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from seisblock.bodies.block import Block
 from seisblock.bodies.factory import block_for_motion
 from seisblock.bodies.table import BodySpec
+from seisblock.core._display import exact_repr
 from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
-from seisblock.core.registry import Solver, SolverBody, get_solver
+from seisblock.core.registry import RowResult, Solver, SolverBody, get_solver
 from seisblock.core.results import Status
 from seisblock.readers.discover import RecordSource
 from seisblock.readers.options import ReadOptions
 from seisblock.readers.read import read_source
-from seisblock.records import Preparation, Record, motion_of
+from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.qc_report import qc_summary, require_clean
 from seisblock.records.site import matches_station
@@ -24,9 +26,27 @@ from seisblock.studies.batch.probability import LEFT_OUT
 from seisblock.studies.batch.scalar_fields import scalar_fields
 from seisblock.studies.batch.shaking import ShakingColumns
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
-from seisblock.studies.batch.vectorized import solve_vectorized
 from seisblock.studies.batch.worst_azimuth import is_all_azimuths
 from seisblock.studies.capabilities import capabilities
+
+
+def solve_vectorized(solver: Solver, bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowResult]:
+    """Return results by body name for the bodies that a solver can vectorise; the others are solved one by one."""
+    if solver.solve_rows is None:
+        return {}
+    groups: dict[str, list[SolverBody]] = {}
+    for body in bodies:
+        shared = {key: value for key, value in body.options.keywords().items() if key not in solver.row_options}
+        groups.setdefault(exact_repr(shared), []).append(body)
+    results: dict[str, RowResult] = {}
+    for group in groups.values():
+        try:
+            results |= solver.solve_rows(group, motion)
+        except SeisblockError:
+            # solved one by one, the failing body is identified with its reason
+            continue
+    return results
+
 
 ALL = "all"
 
@@ -85,6 +105,9 @@ def build_solver_bodies(
     """
     result: list[SolverBody | RejectedBody] = []
     for body in bodies:
+        if isinstance(body, BodySpec) and body.error is not None:
+            result.append(RejectedBody(body.name, body.error))
+            continue
         try:
             result.append(
                 solver.build_body(body, options) if isinstance(body, BodySpec) else replace(body, options=solver.make_options(options))
@@ -115,7 +138,11 @@ def record_rows(recording: RecordSource | Record, plan: Plan) -> list[Row]:
         record = recording if isinstance(recording, Record) else read_source(recording, plan.read_options)
         if plan.read_options.station is not None and not matches_station(record, plan.read_options.station):
             return []
-        columns |= {"station": record.station or None, "start": record.start.isoformat() if record.start else None}
+        columns |= {
+            "station": record.station or None,
+            "seed_id": record.seed_id or None,
+            "start": record.start.isoformat() if record.start else None,
+        }
         if plan.strict:
             require_clean(record)
         doubts = qc_summary([record])
@@ -190,19 +217,21 @@ def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Pl
     sweep = capabilities(plan.solver).worst_azimuth
     assert sweep is not None
     try:
-        worst, direction_counts, remarks = sweep(body, record)
+        worst, direction_counts, remarks = sweep(body, record, plan.runs, plan.seed)
         motion = motion_of(record, worst)
     except SeisblockError as error:
         return {**row, REASON: error.message}
-    scalars = _solve_row(ShakingColumns(plan.solver, motion), body, plan, [*doubts, *remarks])
+    # the base is projected on the azimuth; a scan has its own block in each
+    aligned = replace(body, body=body.body.block_toward(float(worst))) if isinstance(body.body, Block) else body
+    scalars = _solve_row(ShakingColumns(plan.solver, motion), aligned, plan, [*doubts, *remarks], is_aligned=isinstance(body.body, Block))
     return {**row, "component": motion.name, **direction_counts, **scalars}
 
 
-def _solve_row(shaking: ShakingColumns, body: SolverBody, plan: Plan, doubts: Sequence[str]) -> Row:
+def _solve_row(shaking: ShakingColumns, body: SolverBody, plan: Plan, doubts: Sequence[str], *, is_aligned: bool = False) -> Row:
     """Return the result of one body under one motion, or the reason of its failure."""
     model, motion = plan.model, shaking.motion
     try:
-        aligned_body = replace(body, body=block_for_motion(body.body, motion))
+        aligned_body = body if is_aligned or model.spatial else replace(body, body=block_for_motion(body.body, motion))
         response = model.solve(aligned_body.body, motion, **body.options.keywords())
         probability = capabilities(plan.solver).probability
         chance = probability(aligned_body, motion, plan.runs, plan.seed) if plan.runs and probability is not None else {}

@@ -12,8 +12,7 @@ from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.typing import FloatArray, IntArray
-from seisblock.measures.baseline import ground_history
-from seisblock.measures.peaks import peak_acceleration, peak_velocity
+from seisblock.measures.summary import conventions_of, motion_peaks
 from seisblock.records import Motion
 from seisblock.records._validation import validate_motion
 
@@ -146,8 +145,8 @@ def ground_peaks(experiment: Experiment) -> tuple[FloatArray, FloatArray]:
     for outcome in experiment.outcomes:
         if id(outcome.motion) not in peaks:
             acceleration = outcome.motion.horizontal
-            history = ground_history(acceleration, outcome.motion.dt)
-            peaks[id(outcome.motion)] = peak_acceleration(acceleration)[0], peak_velocity(history, outcome.motion.dt)
+            pga, pgv, _ = motion_peaks(acceleration, outcome.motion.dt, conventions_of(outcome.motion.record))
+            peaks[id(outcome.motion)] = pga, pgv
     rows = np.array([[abs(outcome.scale) * peak for peak in peaks[id(outcome.motion)]] for outcome in experiment.outcomes])
     return rows[:, 0], rows[:, 1]
 

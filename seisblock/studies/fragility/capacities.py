@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.core.typing import BoolArray, FloatArray
-from seisblock.studies.fragility.lognormal import Lognormal
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,12 +108,3 @@ def _censored(value: FloatArray, weight: FloatArray, censored: float, top: float
         if converged:
             break
     return mean, deviation
-
-
-def fit_capacities(intensities: FloatArray, *, top: float | None = None) -> Lognormal | None:
-    """Return the lognormal of capacities, infinite without exceedance up to `top`; None if no curve follows."""
-    with np.errstate(divide="ignore"):
-        logs = np.log(np.asarray(intensities, dtype=np.float64))
-    highest = math.log(top) if top is not None else float(np.max(logs[np.isfinite(logs)], initial=0.0))
-    medians, betas = moments(logs, np.ones((1, logs.size)), highest)
-    return Lognormal(float(medians[0]), float(betas[0])) if math.isfinite(float(medians[0])) else None

@@ -12,12 +12,242 @@ from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.typing import BoolArray, FloatArray
 from seisblock.studies.fragility.capacities import Capacities, capacities, moments
 from seisblock.studies.fragility.damage_states import LimitState, cumulative_exceedance
-from seisblock.studies.fragility.efficiency import efficiency_of_capacities, efficiency_of_cloud
-from seisblock.studies.fragility.goodness_of_fit import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for
 from seisblock.studies.fragility.lognormal import NOT_INCREASING, Lognormal, fit_lognormals, fit_lognormals_shared_beta, no_curve_reason
-from seisblock.studies.fragility.results import Dispersion, Efficiency, Fragility, FragilityLevel, Goodness
+from seisblock.studies.fragility.probit import fit_probit
+from seisblock.studies.fragility.results import Dispersion, Efficiency, Fragility, FragilityLevel, Goodness, Sufficiency
 from seisblock.studies.fragility.suite import Suite
+
+SAMPLE_COUNT = 400
+"""Samples of the fitted curve."""
+
+SIGNIFICANCE = 0.05
+"""Significance level of a misfit."""
+
+KS, CUMULATED = "ks", "cumulated residuals"
+
+
+def goodness_of_stripes(
+    curve: Lognormal, levels: FloatArray, exceeding: FloatArray, runs: float, motions: int, rng: np.random.Generator
+) -> Goodness:
+    """Return the goodness of fit of a curve to shares at levels of the same scaled motions ([Lilliefors1967]_ method).
+
+    Each sample consists of as many motions with random capacities; it is counted at the levels, fitted, and compared with its own
+    curve. Motions count as independent.
+
+    Parameters
+    ----------
+    curve : Lognormal
+    levels, exceeding : (n,) arrays
+    runs : float
+        At each level.
+    motions : int
+        Capacities in a sample.
+    rng : numpy.random.Generator
+    """
+    samples = curve.median * np.exp(curve.beta * rng.standard_normal((SAMPLE_COUNT, motions)))
+    # one capacity decides a motion at all levels: counts at the levels are dependent, as in the data
+    counts = (samples[:, :, None] <= levels).sum(axis=1).astype(np.float64)
+    medians, betas = fit_lognormals(levels, counts, np.full((1, levels.size), float(motions)))
+    good = np.isfinite(medians)
+    sample_distances = _ks_distances(counts[good] / motions, levels, medians[good], betas[good])
+    distance = float(_ks_distances(exceeding[None] / runs, levels, np.array([curve.median]), np.array([curve.beta]))[0])
+    return _make_goodness(KS, distance, sample_distances, _deviance(curve.probability(levels), exceeding, np.full(levels.size, runs)))
+
+
+def goodness_of_capacities(curve: Lognormal, log_capacities: FloatArray, top: float, rng: np.random.Generator) -> Goodness:
+    """Return the goodness of fit of a curve to IDA capacities up to a highest level ([Lilliefors1967]_ method).
+
+    Parameters
+    ----------
+    curve : Lognormal
+    log_capacities : (m,) array
+        Infinite without exceedance.
+    top : float
+        Logarithm of the highest level.
+    rng : numpy.random.Generator
+    """
+    samples = np.log(curve.median) + curve.beta * rng.standard_normal((SAMPLE_COUNT, log_capacities.size))
+    # censored at the highest level, as the data are
+    samples = np.where(samples <= top, samples, np.inf)
+    sample_distances = []
+    for sample in samples:
+        medians, betas = moments(sample, np.ones((1, sample.size)), top)
+        if np.isfinite(medians[0]):
+            sample_distances.append(_ks_distance(sample, float(medians[0]), float(betas[0])))
+    distance = _ks_distance(log_capacities, curve.median, curve.beta)
+    return _make_goodness(KS, distance, np.array(sample_distances), None)
+
+
+def goodness_of_cloud(curve: Lognormal, intensities: FloatArray, exceeding: FloatArray, runs: float, rng: np.random.Generator) -> Goodness:
+    """Return the goodness of fit of a curve to unscaled motions ([SuWei1991]_ method: cumulated residuals).
+
+    Parameters
+    ----------
+    curve : Lognormal
+    intensities, exceeding : (m,) arrays
+    runs : float
+        Of each motion.
+    rng : numpy.random.Generator
+    """
+    order = np.argsort(intensities)
+    x, y = intensities[order], exceeding[order]
+    expected = curve.probability(x)
+    samples = rng.binomial(int(runs), expected, (SAMPLE_COUNT, x.size)).astype(np.float64)
+    medians, betas = fit_lognormals(x, samples, np.full((1, x.size), runs))
+    good = np.isfinite(medians)
+    sample_distances = _max_cumulative_residual(samples[good], x, medians[good], betas[good], runs)
+    distance = float(_max_cumulative_residual(y[None], x, np.array([curve.median]), np.array([curve.beta]), runs)[0])
+    return _make_goodness(CUMULATED, distance, sample_distances, _deviance(expected, y, np.full(x.size, runs)))
+
+
+def _make_goodness(statistic: str, distance: float, sample_distances: FloatArray, deviance: float | None) -> Goodness:
+    """Return the rank of a distance among those of the samples; +1 counts the data as one of them."""
+    share = float((np.sum(sample_distances >= distance) + 1.0) / (sample_distances.size + 1.0))
+    return Goodness(statistic, distance, share, deviance, share >= SIGNIFICANCE)
+
+
+def _probabilities(levels: FloatArray, medians: FloatArray, betas: FloatArray) -> FloatArray:
+    """Return the probabilities of several curves at given levels, (b, n)."""
+    from scipy.special import ndtr
+
+    return np.asarray(ndtr((np.log(levels) - np.log(medians)[:, None]) / betas[:, None]))
+
+
+def _ks_distances(shares: FloatArray, levels: FloatArray, medians: FloatArray, betas: FloatArray) -> FloatArray:
+    """Return the largest distance of shares at levels from each curve, (b,)."""
+    return np.asarray(np.abs(shares - _probabilities(levels, medians, betas)).max(axis=1))
+
+
+def _max_cumulative_residual(exceeding: FloatArray, x: FloatArray, medians: FloatArray, betas: FloatArray, runs: float) -> FloatArray:
+    """Return the largest cumulated residual along x over the root of the number of runs, (b,)."""
+    residuals = exceeding - runs * _probabilities(x, medians, betas)
+    return np.asarray(np.abs(np.cumsum(residuals, axis=1)).max(axis=1) / np.sqrt(runs * x.size))
+
+
+def _ks_distance(log_capacities: FloatArray, median: float, beta: float) -> float:
+    """Return the Kolmogorov-Smirnov distance of a sample, censored at the top, from a curve."""
+    from scipy.special import ndtr
+
+    sorted_logs = np.sort(log_capacities)
+    observed = np.isfinite(sorted_logs)
+    expected = ndtr((sorted_logs[observed] - np.log(median)) / beta)
+    steps = np.arange(1, int(observed.sum()) + 1) / sorted_logs.size
+    # the empirical distribution jumps at each value: both sides of the step count
+    return float(np.max([np.abs(steps - expected), np.abs(steps - 1.0 / sorted_logs.size - expected)], initial=0.0))
+
+
+def _deviance(expected: FloatArray, exceeding: FloatArray, runs: FloatArray) -> float:
+    """Return the deviance over the degrees of freedom: twice the log-likelihood deficit against the shares themselves."""
+    from scipy.special import xlogy
+
+    shortfall = xlogy(exceeding, exceeding / np.maximum(runs * expected, 1e-300))
+    shortfall += xlogy(runs - exceeding, (runs - exceeding) / np.maximum(runs * (1.0 - expected), 1e-300))
+    return float(2.0 * shortfall.sum() / max(expected.size - 2, 1))
+
+
+MIN_MOTIONS = 5
+"""Smallest number of motions for a slope."""
+
+SHAPE, MAGNITUDE = "ln(pgv/pga)", "magnitude"
+
+
+def efficiency_of_capacities(
+    measure: IntensityMeasure, values: FloatArray, log_factors: FloatArray, properties: Sequence[tuple[str, FloatArray]]
+) -> Efficiency | None:
+    """Return the efficiency of a measure from IDA capacities ([LucoCornell2007]_ sections on efficiency, sufficiency).
+
+    Motions without exceedance are left out. The slope is the least-squares slope of the logarithmic residuals against a property of
+    the motions, its probability that of Student's t.
+
+    Parameters
+    ----------
+    measure : IntensityMeasure
+    values : (m,) array
+        Of the unscaled motions.
+    log_factors : (m, v) array
+        Logarithms of the factors of first exceedance, for each sample of the body; infinite without exceedance.
+    properties : sequence of (str, (m,) array)
+        Properties for the sufficiency; NaN if unknown.
+    """
+    observed = np.isfinite(log_factors)
+    if observed.sum() < 2:
+        return None
+    logs = measure.log_scaled(values[:, None], np.where(observed, log_factors, np.nan))
+    log_capacities = logs[observed]
+    mean, beta = float(log_capacities.mean()), float(log_capacities.std(ddof=1))
+    # one residual per motion: samples of the body share its properties
+    residuals = np.array([row[np.isfinite(row)].mean() if np.isfinite(row).any() else np.nan for row in logs]) - mean
+    slopes = [slope for name, property_values in properties if (slope := _residual_slope(name, property_values, residuals)) is not None]
+    return Efficiency(measure.name, measure.unit, math.exp(mean), beta, tuple(slopes))
+
+
+def efficiency_of_cloud(
+    measure: IntensityMeasure, values: FloatArray, exceeding: FloatArray, runs: float, properties: Sequence[tuple[str, FloatArray]]
+) -> Efficiency | None:
+    """Return the efficiency of a measure by probit regression, and its sufficiency ([LucoCornell2007]_ section on sufficiency).
+
+    The probability is that of the likelihood ratio with and without the property, chi-squared with one degree of freedom.
+
+    Parameters
+    ----------
+    measure, values, properties
+        As in :func:`efficiency_of_capacities`.
+    exceeding : (m,) array
+        Exceedances of each motion.
+    runs : float
+        Runs of each motion.
+    """
+    medians, betas = fit_lognormals(values, exceeding[None], np.full((1, values.size), runs))
+    if not math.isfinite(float(medians[0])):
+        return None
+    slopes = [
+        slope for name, property_values in properties if (slope := _added_slope(name, property_values, values, exceeding, runs)) is not None
+    ]
+    return Efficiency(measure.name, measure.unit, float(medians[0]), float(betas[0]), tuple(slopes))
+
+
+def _centred_property(property_values: FloatArray, residuals: FloatArray) -> FloatArray | None:
+    """Return a property minus its mean, NaN if unknown; None if it varies too little for a slope."""
+    finite = np.isfinite(property_values) & np.isfinite(residuals)
+    if finite.sum() < MIN_MOTIONS or np.unique(property_values[finite]).size < 3:
+        return None
+    return np.where(finite, property_values - property_values[finite].mean(), np.nan)
+
+
+def _residual_slope(name: str, property_values: FloatArray, residuals: FloatArray) -> Sufficiency | None:
+    """Return the slope of residuals against a property, and the probability of a slope as steep by chance."""
+    from scipy.special import stdtr
+
+    x = _centred_property(property_values, residuals)
+    if x is None:
+        return None
+    finite = np.isfinite(x)
+    x, y = x[finite], residuals[finite] - residuals[finite].mean()
+    slope = float(x @ y / (x @ x))
+    free = x.size - 2
+    error = math.sqrt(float(((y - slope * x) ** 2).sum()) / free / float(x @ x))
+    chance = 2.0 * float(stdtr(free, -abs(slope) / error)) if error > 0.0 else 0.0
+    return Sufficiency(name, slope, chance)
+
+
+def _added_slope(name: str, property_values: FloatArray, values: FloatArray, exceeding: FloatArray, runs: float) -> Sufficiency | None:
+    """Return the effect of a property in a probit regression, as a change of the logarithm of the median."""
+    from scipy.special import chdtrc
+
+    x = _centred_property(property_values, values)
+    if x is None:
+        return None
+    finite = np.isfinite(x)
+    logs, y = np.log(values[finite]), exceeding[finite][None]
+    n = np.full_like(y, runs)
+    base_fit = fit_probit(np.column_stack([logs, np.ones_like(logs)]), y, n)
+    full_fit = fit_probit(np.column_stack([logs, np.ones_like(logs), x[finite]]), y, n)
+    b, _, c = full_fit.coefficients[0]
+    ratio = 2.0 * float(full_fit.log_likelihood[0] - base_fit.log_likelihood[0])
+    # median = exp(-(a + c x)/b), so d ln(median)/dx = -c/b
+    return Sufficiency(name, float(-c / b), float(chdtrc(1, max(ratio, 0.0)))) if math.isfinite(ratio) else None
+
 
 STRIPES, IDA, CLOUD = "stripes", "ida", "cloud"
 METHODS = (STRIPES, IDA, CLOUD)
@@ -304,7 +534,7 @@ def _efficiencies(
         return []
     properties = (("ln(pgv/pga)", suite.shapes), ("magnitude", suite.magnitudes))
     main_measure = options.measures[0]
-    factors = (capacities_by_run.log_factor.reshape(len(exceeded), -1) - np.log(exceedances.values[0])[:, None]) / main_measure.power
+    factors = main_measure.log_factors(capacities_by_run.log_factor.reshape(len(exceeded), -1), exceedances.values[0][:, None])
     mask, exceeding = _scaled_counts(exceeded, exceedances.completed, (1, 2), exceeded.shape[2])
     masked_properties = tuple((name, property_values[mask]) for name, property_values in properties)
     results = []

@@ -113,7 +113,7 @@ def fragility_from_median(hazard: Hazard, median: str | float, beta: float) -> F
 
 
 def check_measure(curves: Sequence[FragilityCurve], hazard: Hazard) -> tuple[FragilityCurve, ...]:
-    """Return curves after a check that they use the intensity measure of a hazard.
+    """Return curves after a check that they use the intensity measure of a hazard, or another definition of the same spectral ordinate.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def check_measure(curves: Sequence[FragilityCurve], hazard: Hazard) -> tuple[Fra
         If a curve uses another measure.
     """
     for curve in curves:
-        if curve.im != hazard.im:
+        if curve.im != hazard.im and not intensity_measure(curve.im).is_comparable(intensity_measure(hazard.im)):
             raise ParameterError(
                 "the fragility is in {im} and the hazard in {found}; use a hazard in {im}, or a fragility in {found}",
                 im=curve.im,

@@ -1,4 +1,4 @@
-"""Lognormal fragility curve, and its maximum-likelihood fit to counts at levels."""
+"""Lognormal fit of a fragility curve: maximum likelihood from counts at levels."""
 
 from __future__ import annotations
 

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from seisblock.bodies.body_name import body_name
-from seisblock.bodies.factory import block_for_motion
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
-from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.i18n import N_, Message, join_list, lazy_gettext
 from seisblock.core.limits import MAX_CELLS, MAX_RUNS, check_limit
 from seisblock.core.registry import SolverBody, get_solver, solver_names
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
@@ -25,14 +24,183 @@ from seisblock.studies.batch.task import RejectedBody, build_solver_bodies
 from seisblock.studies.batch.worst_azimuth import check_all_azimuths
 from seisblock.studies.capabilities import capabilities, fragility_solvers
 from seisblock.studies.fragility.damage_states import LimitState, describe_limit, limit_states
-from seisblock.studies.fragility.estimate import CLOUD, METHODS, STRIPES, Exceedances, FitOptions, estimate_curves
+from seisblock.studies.fragility.estimate import CLOUD, IDA, METHODS, STRIPES, Exceedances, FitOptions, estimate_curves
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for, intensity_measure
-from seisblock.studies.fragility.levels import DEFAULT_STEPS, check_levels, find_levels
-from seisblock.studies.fragility.results import FragilityStudy
+from seisblock.studies.fragility.results import Fragility, FragilityStudy
 from seisblock.studies.fragility.runners import Draws, version_draws
 from seisblock.studies.fragility.suite import Suite, make_suite, read_suite
-from seisblock.studies.fragility.warnings import fragility_warnings, stopped_run_notes, version_range_notes
 from seisblock.studies.intervals import CONFIDENCE
+
+MAX_SCALE_FACTOR = 10.0
+"""Scale factor above which a record is hardly representative."""
+
+MIN_RECORDS = 10
+"""Number of records below which an interval over records is rough."""
+
+MAX_LOST_SHARE = 0.02
+"""Share of bootstrap samples without a curve above which a warning is given."""
+
+
+def fragility_warnings(curves: Sequence[Fragility], values: Sequence[FloatArray], options: FitOptions) -> list[Message]:
+    """Return warnings about some curves, a sentence each.
+
+    Parameters
+    ----------
+    curves : sequence of Fragility
+        Equally many of each body, body by body.
+    values : sequence of (m,) arrays
+        For each body, the intensity of the unscaled motions.
+    options : FitOptions
+    """
+    curves_per_body, count = len(curves) // len(values), curves[0].records
+    record_warnings = (
+        [lazy_gettext("only {count} records: medians, betas and their intervals are rough; use at least 10", count=count)]
+        if count < MIN_RECORDS
+        else []
+    )
+    return record_warnings + [
+        note
+        for i, curve in enumerate(curves)
+        for note in _curve_warnings(curve, values[i // curves_per_body], options, with_body=len(curves) > 1)
+    ]
+
+
+def _curve_warnings(curve: Fragility, values: FloatArray, options: FitOptions, *, with_body: bool) -> Iterator[Message]:
+    limit = describe_limit(curve.limit)
+    label = lazy_gettext("{body}, {limit}", body=body_name(curve.body), limit=limit) if with_body else limit
+    if curve.problem is not None:
+        yield lazy_gettext("{curve}: no curve; {why}", curve=label, why=curve.problem)
+        return
+    if curve.goodness is not None and not curve.goodness.fits:
+        text = "{curve}: lognormal fit rejected (p = {chance:.1g})"
+        yield lazy_gettext(text, curve=label, chance=curve.goodness.probability)
+    if curve.bootstrap_lost_count > MAX_LOST_SHARE * options.bootstrap:
+        text = "{curve}: no curve in {count} of {all} bootstrap samples; the intervals are too narrow"
+        yield lazy_gettext(text, curve=label, count=curve.bootstrap_lost_count, all=options.bootstrap)
+    if options.method == IDA and curve.censored_motions:
+        text = "{curve}: not exceeded at any level by {count} of {all} motions; treated as censored at the highest level"
+        yield lazy_gettext(text, curve=label, count=curve.censored_motions, all=curve.motions)
+    measure = options.measures[0]
+    if options.method != CLOUD and curve.median is not None:
+        factor = float(np.median(factors_for(np.full(values.size, curve.median), values, measure)))
+        if factor > MAX_SCALE_FACTOR:
+            size, unit = measure.display_unit()
+            text = "{curve}: at the median, {median}, half of the records are scaled by {factor:.3g} or more; use stronger records"
+            yield lazy_gettext(text, curve=label, median=f"{curve.median / size:.4g} {unit}".strip(), factor=factor)
+
+
+MAX_RUN_NAMES = 3
+"""Largest number of stopped runs listed by name."""
+
+
+def stopped_run_notes(body_runs: Sequence[Exceedances], suite: Suite, measure: IntensityMeasure) -> list[Message]:
+    """Return a note for each body with stopped runs, listing the first of them.
+
+    Parameters
+    ----------
+    body_runs : sequence of Exceedances
+        One for each body.
+    suite : Suite
+    measure : IntensityMeasure
+        Of the levels.
+    """
+    size, unit = measure.display_unit()
+    sentences = []
+    for runs in body_runs:
+        stopped_runs = np.argwhere(~runs.completed)
+        if not len(stopped_runs):
+            continue
+        places = list(dict.fromkeys((int(motion), int(level)) for motion, level, _ in stopped_runs))
+        names = [f"{_motion_label(suite, m)} {runs.levels[m, n] / size:.4g} {unit}".strip() for m, n in places[:MAX_RUN_NAMES]]
+        text = (
+            "{body}: {count} of {all} runs stopped without a result and excluded: {names}"
+            if len(places) <= MAX_RUN_NAMES
+            else "{body}: {count} of {all} runs stopped without a result and excluded: {names} and others"
+        )
+        sentences.append(
+            lazy_gettext(text, body=body_name(runs.body), count=len(stopped_runs), all=runs.completed.size, names=join_list(names))
+        )
+    return sentences
+
+
+def _motion_label(suite: Suite, motion: int) -> str:
+    """Return the file and the component of a motion."""
+    return f"{suite.records[suite.owner[motion]].source.rsplit('/', 1)[-1]} {suite.motions[motion].name}".strip()
+
+
+def version_range_notes(bodies: Sequence[SolverBody], solver: str) -> list[Message]:
+    """Return a note for each body sampled from the priors of its kind; friction has no effect on rocking."""
+    ranges = ((solver_body.name, getattr(solver_body.body, "ranges", None)) for solver_body in bodies)
+    left_out = ("width_m", "height_m", *(["mu"] if solver == "rock" else []))
+    body_ranges_by_name = ((name, body_ranges and body_ranges.without(*left_out)) for name, body_ranges in ranges)
+    return [
+        lazy_gettext("{body}: samples drawn from the ranges of the body: {ranges}", body=body_name(name), ranges=body_ranges.description)
+        for name, body_ranges in body_ranges_by_name
+        if body_ranges
+    ]
+
+
+DEFAULT_STEPS = 60
+"""Default number of levels."""
+
+MAX_DOUBLINGS = 12
+"""Largest number of steps from the unscaled motions in the search for the range."""
+
+LOW_SHARE, HIGH_SHARE = 0.02, 0.95
+"""Exceeding shares of the runs at the ends of the range."""
+
+
+def check_levels(levels: ArrayLike) -> FloatArray:
+    """Return given levels, rising, without duplicates.
+
+    Raises
+    ------
+    ParameterError
+        If there are fewer than two, or one is not positive.
+    """
+    unique_levels = np.unique(checks.float_array("the levels", levels))
+    if unique_levels.size < 2:
+        raise ParameterError("a fragility requires at least two levels, found {count}", count=unique_levels.size)
+    if not (np.isfinite(unique_levels).all() and (unique_levels > 0.0).all()):
+        raise ParameterError("the levels of a fragility must be positive numbers")
+    return unique_levels
+
+
+def find_levels(shares_at: Callable[[float], FloatArray], middle: float, steps: int = DEFAULT_STEPS, step: float = 2.0) -> FloatArray:
+    """Return levels, logarithmically spaced, between rare and almost sure exceedance.
+
+    Parameters
+    ----------
+    shares_at : callable
+        ``shares_at(level)``: share of the motions that exceed each limit, for each body.
+    middle : float
+        Start of the search.
+    steps : int
+        At least 2.
+    step : float
+        Ratio of successive levels of the search: 2, doubling and halving.
+    """
+    checks.integer("the number of levels", steps, minimum=2)
+    first = shares_at(middle)
+    low, high = (
+        _extend_level(shares_at, middle, 1.0 / step, first, lambda s: s <= LOW_SHARE),
+        _extend_level(shares_at, middle, step, first, lambda s: s >= HIGH_SHARE),
+    )
+    return np.geomspace(low, high, steps)
+
+
+def _extend_level(
+    shares_at: Callable[[float], FloatArray], level: float, factor: float, shares: FloatArray, is_reached: Callable[[FloatArray], BoolArray]
+) -> float:
+    """Return the first level of a geometric sequence at which a condition holds for all shares; the last if none."""
+    # bounded: some limits are never, or always, exceeded
+    for _ in range(MAX_DOUBLINGS):
+        if is_reached(shares).all():
+            break
+        level *= factor
+        shares = shares_at(level)
+    return level
+
 
 ALL_AZIMUTHS_NOTE = N_(
     "all azimuths in steps of {step:g} degrees: each record counts once, with its worst azimuth and the largest intensity"
@@ -75,9 +243,8 @@ class StudyPlan:
         gave_up = np.zeros((factors.size, versions), dtype=np.bool_)
         end_states = capabilities(self.solver).end_states
         assert end_states is not None
-        for shaking in self.suite.directions(motion, solver_body.body):
-            aligned_body = replace(solver_body, body=block_for_motion(solver_body.body, shaking))
-            ends = end_states(aligned_body, shaking, factors, draws)
+        for aligned_body, shaking in self.suite.cases(motion, solver_body.body, spatial=get_solver(self.solver).spatial):
+            ends = end_states(replace(solver_body, body=aligned_body), shaking, factors, draws)
             exceeded = np.stack([limit.exceeded(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
             if ends.gave_up is not None:
                 stopped_mask = ends.gave_up.reshape(factors.size, versions)
@@ -122,7 +289,7 @@ def run_fragility(
     limits : str, or several
         ``overturn``, ``rock``, ``slip=5cm``, ``lean=0.5``; several are states of rising severity, and share one beta.
     im : str, or several
-        ``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``: of the solved component, of the ground also for bodies on a
+        ``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``cav``, ``p*pgv``: of the solved component, of the ground also for bodies on a
         floor. The first is the abscissa of the curve; the others are compared with it.
     method : str
         ``stripes``: every record at every level, maximum likelihood; ``ida``: level of first exceedance of each record; ``cloud``:
@@ -186,7 +353,7 @@ def run_fragility(
     requested = [im] if isinstance(im, (str, IntensityMeasure)) else list(im)
     measures = tuple(dict.fromkeys(intensity_measure(item) for item in requested))
     if not measures:
-        raise ParameterError("no intensity measure given; expected pga, pgv, pgd, sa=0.5, arias or p*pgv")
+        raise ParameterError("no intensity measure given; expected pga, pgv, pgd, sa:0.5, rotd50:0.5, rotd100:0.5, arias, cav, p*pgv, jma")
     names = (components,) if isinstance(components, str) else tuple(components)
     check_all_azimuths(solver, names, options)
     solver_bodies = prepare_bodies(bodies, solver, options)
@@ -263,7 +430,12 @@ def _grids(study: StudyPlan, fit_options: FitOptions, levels: ArrayLike | None, 
             completed_counts = np.reshape([completed[0, 0] for _, completed in runs], (len(study.bodies), motions)).sum(axis=1)
             return np.asarray(exceeded.sum(axis=1) / np.maximum(completed_counts, 1)[:, None])
 
-        grid = find_levels(shares_at, math.exp(float(np.mean([np.log(values[0]).mean() for values in study.values]))), steps)
+        grid = find_levels(
+            shares_at,
+            math.exp(float(np.mean([np.log(values[0]).mean() for values in study.values]))),
+            steps,
+            fit_options.measures[0].search_step,
+        )
     else:
         grid = check_levels(levels)
     return [np.tile(grid, (motions, 1))] * len(study.bodies)

@@ -27,21 +27,17 @@ from seisblock.records import Motion
 from seisblock.records._validation import vertical_gain
 from seisblock.studies.fragility.damage_states import OVERTURN, SLIP, EndStates
 from seisblock.studies.parallel import map_batches, map_threads
-from seisblock.studies.respond.probability import ParameterVariation, perturbed_respond_params
-from seisblock.studies.rocking.perturb import Spread, draw_samples, perturbed_rock_params
 from seisblock.studies.rocking.verdicts import parallel_verdicts
+from seisblock.studies.sampling import ParameterVariation, draw_samples, sample_respond_params, sample_rock_params
 
 Draws = FloatArray | None
-"""Draws of the samples of a body, (v, 7), each uniform in [-1, 1]; None for the nominal body."""
+"""Draws of the samples of a body, (v, 8), each uniform in [-1, 1]; None for the nominal body."""
 
 Runner = Callable[[SolverBody, Motion, FloatArray, Draws], EndStates]
 """``runner(solver_body, motion, factors, draws)``: end states of all samples at the first factor, then at the next."""
 
-SPREAD = Spread(amplitude=0.0, azimuth_deg=0.0)
-"""Half widths of a rocking block as in `perturb`, without the shaking, whose intensity is the abscissa of the curve."""
-
 VERSIONS = ParameterVariation(amplitude=0.0, azimuth_deg=0.0)
-"""The same for `respond`."""
+"""Half widths of a body as everywhere, without the shaking, whose intensity is the abscissa of the curve."""
 
 BATCH_SIZE = 64
 """Sliding runs per thread and batch."""
@@ -54,7 +50,7 @@ def rock_end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray
     if draws is None:
         bodies = [rock_params(solver_body.body, motion, options)]
     else:
-        params = perturbed_rock_params(solver_body.body, motion, SPREAD, draws, options)
+        params = sample_rock_params(solver_body.body, motion, VERSIONS, draws, options)
         rows = np.tile(np.arange(len(draws)), factors.size)
         bodies = params[rows]
     unit = np.array(bodies.gains() if isinstance(bodies, RockBatchParams) else bodies[0].gains())
@@ -74,7 +70,7 @@ def respond_end_states(solver_body: SolverBody, motion: Motion, factors: FloatAr
         if not isinstance(solver_body.body, Block):
             raise ParameterError("{name}: `perturb` requires a block: omit `perturb`", name=solver_body.name)
         run_draws = np.tile(draws, (factors.size, 1))
-        settings = perturbed_respond_params(solver_body.body, VERSIONS, run_draws, options)
+        settings = sample_respond_params(solver_body.body, VERSIONS, run_draws, options)
         alphas = settings.blocks.slendernesses.min(axis=1)
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
     results = respond_many(settings, motion, gains=gains, settle_s=options.settle_s)

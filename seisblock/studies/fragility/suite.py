@@ -6,9 +6,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
+from typing import Any
 
 import numpy as np
 
+from seisblock.bodies.block import Block
+from seisblock.bodies.factory import block_for_motion
 from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray, IntArray
@@ -82,6 +85,21 @@ class Suite:
             return
         for azimuth in sweep_azimuths(body).tolist():
             yield motion_of(self.records[self.owner[motion]], f"{azimuth:g}")
+
+    def cases(self, motion: int, body: Any, *, spatial: bool = False) -> Iterator[tuple[Any, Motion]]:
+        """Yield the directions of a motion with the body in each: with all azimuths the base of a block is projected, as in a sweep.
+
+        In three dimensions (`spatial`) the body keeps its orientation in the ground's.
+        """
+        if spatial:
+            yield from ((body, shaking) for shaking in self.directions(motion, body))
+            return
+        if self.all_azimuths and isinstance(body, Block):
+            blocks = [body.block_toward(azimuth) for azimuth in sweep_azimuths(body).tolist()]
+            yield from zip(blocks, self.directions(motion, body), strict=True)
+            return
+        for shaking in self.directions(motion, body):
+            yield block_for_motion(body, shaking), shaking
 
     def _intensities(self, measure: IntensityMeasure) -> FloatArray:
         """Return the intensity of each motion, (m,): with all azimuths the largest; on a floor that of the ground."""

@@ -27,9 +27,10 @@ UNITS_OF: Mapping[str, Mapping[str, float]] = {
 """Accepted units of each measure and their size in the internal unit."""
 
 _MEASURE = re.compile(
-    r"(pga|pgv|pgd|arias|p\*?pgv|sa[\s_(=]*\d*\.?\d+\s*s?\)?)(?:[\s_]*[(\[]\s*(\S.*?)\s*[)\]]|_(\w[\w/^]*))?\s*\Z", re.IGNORECASE
+    r"(pga|pgv|pgd|arias|cav|p\*?pgv|(?:sa|rotd100|rotd50)[\s_(=:]*\d*\.?\d+\s*s?\)?)(?:[\s_]*[(\[]\s*(\S.*?)\s*[)\]]|_(\w[\w/^]*))?\s*\Z",
+    re.IGNORECASE,
 )
-_PERIOD = re.compile(r"\d*\.?\d+")
+_SPECTRAL = re.compile(r"(sa|rotd100|rotd50)[^\d.]*(\d*\.?\d+)")
 _RATES = frozenset(
     {"annualrate", "annualfrequency", "rate", "frequency", "lambda", "annualrateofexceedance", "年超過頻度", "年超過率", "頻度"}
 )
@@ -37,7 +38,7 @@ _ANNUAL_PROBABILITIES = frozenset({"annualprobability", "annualpoe", "probabilit
 _IN_YEARS = re.compile(r"(?:poe|probability)(?:in)?(\d+)(?:years?|yr|y)|(\d+)年超過確率")
 _BRANCH_COLUMNS = {"branch": "branch", "枝": "branch", "分枝": "branch", "weight": "weight", "重み": "weight"}
 
-COLUMN_EXAMPLES = "pgv_m_s, pga_g, pga_gal, pgd_cm, sa(0.5)_g, arias_m_s, p*pgv"
+COLUMN_EXAMPLES = "pgv_m_s, pga_g, pga_gal, pgd_cm, sa(0.5)_g, rotd50(0.5)_g, arias_m_s, cav_m_s, p*pgv"
 """Level headings quoted in messages."""
 
 
@@ -135,8 +136,8 @@ def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
     if match is None:
         return None
     name, unit = re.sub(r"\s", "", match[1]).lower(), (match[2] or match[3] or "").lower()
-    period = _PERIOD.search(name)
-    measure = intensity_measure(f"sa={period[0]}" if period else name.replace("ppgv", "p*pgv"))
+    spectral = _SPECTRAL.match(name)
+    measure = intensity_measure(f"{spectral[1]}={spectral[2]}" if spectral else name.replace("ppgv", "p*pgv"))
     units = UNITS_OF[measure.unit]
     unit_factors = {**units, **{key.replace("/", "_").replace("^", ""): value for key, value in units.items()}} or {"": 1.0, "1": 1.0}
     if unit not in unit_factors:
@@ -150,11 +151,16 @@ def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
 
 
 def _columns(cells: Sequence[str], requested: IntensityMeasure | None) -> _Columns:
+    """Interpret headings; a column of the requested measure is preferred to one of another definition of the same spectral ordinate."""
+    available = [match[0] for match in map(measure_of, cells) if match is not None]
+    expected_measure = requested
+    if requested is not None and requested not in available:
+        expected_measure = next((measure for measure in available if measure.is_comparable(requested)), requested)
     names, ignored, measures, other_measures, rates = [], [], {}, [], {}
     for cell in cells:
         heading_measure, key = measure_of(cell), normalize_heading(cell)
         years = _IN_YEARS.fullmatch(key)
-        if heading_measure is not None and requested in (None, heading_measure[0]):
+        if heading_measure is not None and expected_measure in (None, heading_measure[0]):
             measures[cell] = heading_measure
             names.append("level")
         elif key in _RATES or key in _ANNUAL_PROBABILITIES or years:
@@ -175,8 +181,14 @@ def _columns(cells: Sequence[str], requested: IntensityMeasure | None) -> _Colum
         raise HazardError(text, found=list(rates) or list(cells))
     if names.count("branch") > 1 or names.count("weight") > 1:
         raise HazardError("duplicate columns: keep one branch and one weight")
-    notes = (lazy_gettext("unused columns of the hazard: {columns}", columns=ignored),) if ignored else ()
+    notes: tuple[str, ...] = (lazy_gettext("unused columns of the hazard: {columns}", columns=ignored),) if ignored else ()
     ((measure, factor),) = measures.values()
+    if requested is not None and measure != requested:
+        text = (
+            "the fragility is in {im} and the hazard in {found}, another definition of the horizontal motion: the frequency is biased; "
+            "give both in one measure"
+        )
+        notes += (lazy_gettext(text, im=requested.name, found=measure.name),)
     return _Columns(names, measure, factor, next(iter(rates.values())), notes)
 
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import numpy as np
 
-from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import Cemetery
-from seisblock.bodies.factory import block_for_motion
 from seisblock.bodies.pile.pile import Pile
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
@@ -17,20 +15,20 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.core.registry import Solver, SolverBody, get_solver, solver_names
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
-from seisblock.records import Component, Record, motion_of
-from seisblock.records.motion import ALL_AZIMUTHS
+from seisblock.records import Component, Record
+from seisblock.records.motion import ALL_AZIMUTHS, motion_of
 from seisblock.records.process import component_at_azimuth
 from seisblock.references import papers
+from seisblock.studies.assessment import LIKELY, Assessment, assess_record
 from seisblock.studies.azimuths import STEP_DEG
 from seisblock.studies.batch.table import REASON, Row
 from seisblock.studies.batch.task import Plan, component_rows
 from seisblock.studies.capabilities import capabilities
-from seisblock.studies.parallel import left_out_versions
 from seisblock.studies.respond.azimuths import left_out_directions, respond_directions
-from seisblock.studies.respond.probability import MOVED_M, respond_probability
 from seisblock.studies.survey.assessment import AssessmentMethod, assess_stones
 from seisblock.studies.survey.overturning_rate import rate_from_stones
 from seisblock.studies.survey.shaking import Shaking
+from seisblock.studies.survey.stones import either
 
 RISE = "max_uplift_m"
 """Displacement field of a solver whose displacement is a rise."""
@@ -51,13 +49,15 @@ class StationResult:
     overturned : bool or None
         None for solvers without overturning.
     probability : float or None
-        Overturning probability; None if not requested.
+        Overturning probability under any horizontal component; None if not requested.
     max_slip_m : float or None
         Maximum displacement of the body; for a jump the sum over all chains.
     max_uplift_m : float or None
         Maximum uplift of a corner of a body on springs.
     remarks : tuple of str
         Directions and samples without a result.
+    assessment : Assessment or None
+        Of the object under any horizontal component; None if not requested.
     """
 
     azimuth_deg: float | None = None
@@ -68,11 +68,12 @@ class StationResult:
     max_slip_m: float | None = None
     max_uplift_m: float | None = None
     remarks: tuple[str, ...] = ()
+    assessment: Assessment | None = None
 
     @property
-    def overturns_nominally(self) -> bool:
-        """True if the nominal body overturns, as opposed to its samples."""
-        return self.probability is not None and bool(self.overturned)
+    def likely_overturns(self) -> bool:
+        """True if at least half of the samples overturn."""
+        return self.assessment is not None and self.assessment.class_ == LIKELY
 
     @property
     def severity(self) -> tuple[float, ...]:
@@ -197,32 +198,35 @@ class StationBody(DisplayMixin):
         if self.solver == "respond":
             return self._respond_result(record)
         components = (ALL_AZIMUTHS,) if self.is_directional else ()
-        plan = Plan(self.solver, (SolverBody(self.name, self.body, self.options),), components, runs=self.runs, seed=self.seed)
+        plan = Plan(self.solver, (SolverBody(self.name, self.body, self.options),), components)
         rows = component_rows(record, plan)
         results = [_result_from_row(row, plan.model, record) for row in rows if not row.get(REASON)]
         if not results:
             raise ParameterError("{why}", why=rows[0][REASON])
-        return max(results, key=lambda effect: effect.severity)
+        worst = max(results, key=lambda effect: effect.severity)
+        return self._with_assessment(worst, record) if self.runs else worst
 
     def _respond_result(self, record: Record) -> StationResult:
         """Return the full response in the worst direction, with the probability there."""
         results = respond_directions(self.body, record, self.options, step_deg=self.step_deg)
-        worst, share, remarks = results[0], None, left_out_directions(results)
-        if self.runs:
-            motion = motion_of(record, f"{worst.azimuth_deg:g}")
-            block = block_for_motion(self.body, motion)
-            assert isinstance(block, Block)
-            chance = respond_probability(block, motion, self.options, runs=self.runs, seed=self.seed, moved_m=MOVED_M)
-            share, warning = chance.overturned, left_out_versions(chance.no_answer, chance.runs)
-            remarks += [] if warning is None else [warning]
-        return StationResult(
-            worst.azimuth_deg,
+        worst, remarks = results[0], left_out_directions(results)
+        result = StationResult(
+            worst.azimuth_deg if worst.moves else None,
             happened=worst.overturned,
             overturned=worst.overturned,
-            probability=share,
             max_slip_m=worst.max_displacement_m,
             remarks=tuple(remarks),
         )
+        return self._with_assessment(result, record) if self.runs else result
+
+    def _with_assessment(self, result: StationResult, record: Record) -> StationResult:
+        """Return a result with the assessment of the object."""
+        assessment = assess_record(self.solver, self.body, record, self.options, self.runs, seed=self.seed)
+        remarks = result.remarks
+        if assessment.runs < self.runs:
+            text = lazy_gettext("{count} of {all} samples stopped without a result", count=self.runs - assessment.runs, all=self.runs)
+            remarks = (*remarks, text)
+        return replace(result, probability=assessment.overturning_probability, assessment=assessment, remarks=remarks)
 
 
 def station_solvers() -> list[str]:
@@ -243,7 +247,6 @@ def _result_from_row(row: Row, model: Solver, record: Record) -> StationResult:
         azimuths[name] if name in azimuths else float(name),
         happened=model.event_occurred(row),
         overturned=model.overturns(row),
-        probability=row.get("probability_overturned"),
         max_slip_m=None if column == RISE else distance,
         max_uplift_m=distance if column == RISE else None,
     )
@@ -251,24 +254,25 @@ def _result_from_row(row: Row, model: Solver, record: Record) -> StationResult:
 
 @dataclass(frozen=True, repr=False)
 class StationCemetery(DisplayMixin):
-    """A cemetery, assessed by PGA and equivalent frequency in every direction.
+    """A cemetery: stones that either horizontal component overturns, or by PGA and equivalent frequency in every direction.
 
     Parameters
     ----------
     cemetery : Cemetery
-    method : AssessmentMethod
-        Assessment method with a closed-form criterion.
+    method : AssessmentMethod or None
+        None: simulated stones as in ``overturn-rate``; the fitted criterion for stones with dowels.
     step_deg : float
-        Degrees between directions.
+        Degrees between directions; criteria in closed form only.
     """
 
     cemetery: Cemetery
-    method: AssessmentMethod = field(default_factory=AssessmentMethod)
+    method: AssessmentMethod | None = None
     step_deg: float = STEP_DEG
 
-    def __post_init__(self) -> None:
-        if self.method.criterion == "simulate":
-            raise ParameterError("stations require a closed-form criterion, furukawa or rigid; remove the simulation")
+    @property
+    def assessment(self) -> AssessmentMethod:
+        """The method in use."""
+        return self.method or AssessmentMethod("furukawa" if self.cemetery.reinforced.any() else "simulate")
 
     @property
     def name(self) -> str:
@@ -278,10 +282,12 @@ class StationCemetery(DisplayMixin):
     @property
     def citations(self) -> tuple[str, ...]:
         """Keys of the cited papers."""
-        return self.method.citations
+        return self.assessment.citations
 
     def evaluate(self, record: Record) -> StationResult:
-        """Return the rate in the direction with the largest one; among equal rates, that of the larger PGA."""
+        """Return the rate under both horizontals, or in the direction with the largest one; among equal rates, that of the larger PGA."""
+        if self.assessment.criterion == "simulate":
+            return self._simulated(record)
         rows = [component_at_azimuth(record, azimuth).acceleration for azimuth in (0.0, 90.0)]
         north, east = (ground_history(row, record.dt) for row in rows)
         worst = (-1.0, 0.0, 0.0)
@@ -291,6 +297,16 @@ class StationCemetery(DisplayMixin):
             pgv = float(np.abs(cosine * north.velocity + sine * east.velocity).max())
             frequency = pga_pgv_frequency(pga, pgv)
             if frequency is not None and pga > 0.0:
-                falls = assess_stones(self.cemetery, Shaking(pga, frequency), self.method)
+                falls = assess_stones(self.cemetery, Shaking(pga, frequency), self.assessment)
                 worst = max(worst, (rate_from_stones(falls).rate, pga, azimuth))
         return StationResult(worst[2] if worst[0] >= 0.0 else None, max(worst[0], 0.0))
+
+    def _simulated(self, record: Record) -> StationResult:
+        """Return the share of stones that either horizontal component overturns, with the azimuth of the one that overturns more."""
+        motions = [motion_of(record, component.code) for component in record.horizontals]
+        falls = [
+            assess_stones(self.cemetery, Shaking(float(np.abs(motion.horizontal).max()), 1.0, motion=motion), self.assessment)
+            for motion in motions
+        ]
+        worst = max(range(len(motions)), key=lambda index: (falls[index].mean(), np.abs(motions[index].horizontal).max()))
+        return StationResult(motions[worst].azimuth_deg, rate_from_stones(either(falls)).rate)

@@ -24,6 +24,7 @@ def station_row(report: StationReport) -> dict[str, Any]:
     return {
         "record": report.record,
         "station": report.station,
+        "seed_id": report.seed_id,
         "name": report.name,
         "latitude": report.latitude,
         "longitude": report.longitude,

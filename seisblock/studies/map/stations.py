@@ -16,8 +16,8 @@ from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ComponentError, KindError, ParameterError, SeisblockError
 from seisblock.core.typing import FloatArray, Progress
+from seisblock.measures import jma_intensity
 from seisblock.measures.baseline import ground_history
-from seisblock.measures.intensity import jma_intensity
 from seisblock.measures.peaks import peak_acceleration, peak_velocity
 from seisblock.readers.discover import RecordSource, iter_records
 from seisblock.readers.options import ReadOptions
@@ -55,6 +55,8 @@ class StationReport(DisplayMixin):
         File name.
     station, name : str
         Empty if not in the file.
+    seed_id : str
+        Network, station, location and channels; empty without a network.
     latitude, longitude : float or None
         Degrees north and east; None if not in the file: the station is listed, but not on the map.
     epicentral_distance_km : float or None
@@ -101,6 +103,7 @@ class StationReport(DisplayMixin):
     outline: tuple[tuple[float, float], ...] = ()
     duration_s: float = 0.0
     start: datetime | None = None
+    seed_id: str = ""
 
     @property
     def is_mapped(self) -> bool:
@@ -109,8 +112,8 @@ class StationReport(DisplayMixin):
 
     @property
     def label(self) -> str:
-        """Code and name of the station, else the file name."""
-        return " ".join(part for part in (self.station, self.name) if part) or self.record
+        """SEED id or code, and name of the station, else the file name."""
+        return " ".join(part for part in (self.seed_id or self.station, self.name) if part) or self.record
 
 
 @dataclass(frozen=True, repr=False)
@@ -123,11 +126,14 @@ class Stations(DisplayMixin):
     earthquake : Earthquake or None
     origin_told : str
         Local origin time.
+    preparation : Preparation
+        Processing of each record.
     """
 
     answers: tuple[StationReport, ...]
     earthquake: Earthquake | None
     origin_told: str = ""
+    preparation: Preparation = NO_PROCESSING
 
     @property
     def mapped(self) -> tuple[StationReport, ...]:
@@ -201,7 +207,8 @@ def survey_stations(
     if not reports:
         raise ParameterError("no records; give files, folders or archives of one earthquake")
     reports.sort(key=lambda item: (item.pga_m_s2 is not None, *item.effect.severity, item.pga_m_s2 or 0.0), reverse=True)
-    return Stations(tuple(reports), reference.earthquake if reference else None, reference.origin_told if reference else "")
+    earthquake, origin = (None, "") if reference is None else (reference.earthquake, reference.origin_told)
+    return Stations(tuple(reports), earthquake, origin, preparation)
 
 
 def _recordings(records: Station | Iterable[Station], read_options: ReadOptions) -> Iterator[RecordSource | Record]:
@@ -243,6 +250,7 @@ def _assess_station(
     site, earthquake = get_site(processed_record), get_earthquake(processed_record)
     site_fields: dict[str, object] = {
         "station": site.code,
+        "seed_id": site.seed_id,
         "name": site.name,
         "latitude": site.latitude_deg,
         "longitude": site.longitude_deg,

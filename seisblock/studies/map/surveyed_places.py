@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -13,7 +11,8 @@ from pathlib import Path
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.io.files import read_bytes
+from seisblock.core.io.csv_table import parse_heading
+from seisblock.core.io.spreadsheet import read_sheet
 from seisblock.records.site import great_circle_km, valid_coordinates
 from seisblock.studies.map.stations import StationReport, Stations
 from seisblock.studies.survey.assumptions import Assumptions
@@ -28,6 +27,8 @@ COLUMNS = {
     "fallen": ("fallen", "転倒", "転倒数"),
 }
 """Column headings of a list of surveys."""
+
+_HEADINGS = {word: key for key, words in COLUMNS.items() for word in words}
 
 STATION_CONTRADICTION = N_(
     "{place} and station {station} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} from the stones, "
@@ -111,47 +112,31 @@ class SurveyComparison:
 
 
 def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
-    """Return the surveyed places of a CSV: ``place``, ``latitude``, ``longitude``, ``stones``, ``fallen`` (場所, 緯度, 経度, 墓石, 転倒).
+    """Return the surveyed places of a table (CSV, .xlsx).
+
+    Columns: ``place``, ``latitude``, ``longitude``, ``stones``, ``fallen`` (場所, 緯度, 経度, 墓石, 転倒).
 
     Raises
     ------
     BodyError
         If the file cannot be read, a column is missing, or a row is invalid; the message names the line.
     """
-    path = Path(name)
-    data = read_bytes(path, str(path), BodyError)
-    rows = list(csv.reader(io.StringIO(_text(path, data))))
-    header = [cell.strip().lower() for cell in rows[0]] if rows else []
-    column_indices = {key: next((header.index(word) for word in words if word in header), None) for key, words in COLUMNS.items()}
-    missing = [key for key, index in column_indices.items() if index is None]
+    sheet = read_sheet(Path(name), str(name))
+    (_, header), rows = sheet.split_header(_HEADINGS) if sheet.rows else ((0, []), ())
+    columns = [parse_heading(cell, _HEADINGS)[0] for cell in header]
+    missing = [key for key in COLUMNS if key not in columns]
     if missing:
         raise BodyError(
             "{name}: a list of surveys requires the columns {columns}; missing: {missing}",
-            name=path,
+            name=name,
             columns=list(COLUMNS),
             missing=missing,
         )
-    result = [
-        _place(
-            path,
-            number,
-            {key: row[index].strip() if index is not None and index < len(row) else "" for key, index in column_indices.items()},
-        )
-        for number, row in enumerate(rows[1:], start=2)
-        if any(cell.strip() for cell in row)
-    ]
-    if not result:
-        raise BodyError("{name}: the list of surveys is empty", name=path)
-    return tuple(result)
-
-
-def _text(path: Path, data: bytes) -> str:
-    for encoding in ("utf-8-sig", "cp932"):
-        try:
-            return data.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-    raise BodyError("{name} is not a text file (neither UTF-8 nor Shift-JIS)", name=path)
+    if not rows:
+        raise BodyError("{name}: the list of surveys is empty", name=name)
+    return tuple(
+        _place(Path(name), line, {key: dict(zip(columns, cells, strict=False)).get(key, "") for key in COLUMNS}) for line, cells in rows
+    )
 
 
 def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.factory import block_from_table, table_friction, table_restitution
@@ -11,7 +12,7 @@ from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
 from seisblock.bodies.spring_factory import PAPER_BETA, PAPER_DAMPING
 from seisblock.bodies.toml import read_body_toml
-from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact_from_table, two_layer_from_table
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock, base_from_table, contact_from_table, two_layer_from_table
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.units import parse_length
@@ -36,6 +37,8 @@ class BodyModels:
         Block on corner springs, for uplift.
     mu, mu_kinetic : float or None
         Friction under the body, for sliding; None if unknown.
+    base : mapping
+        Drop and tenon of a two-layer block, m, as far as its file has them.
     """
 
     name: str
@@ -46,6 +49,7 @@ class BodyModels:
     springs: SpringBlock | None = None
     mu: float | None = None
     mu_kinetic: float | None = None
+    base: Mapping[str, float] = field(default_factory=dict)
 
 
 def is_sizes(text: str) -> bool:
@@ -89,6 +93,7 @@ def body_models(
     """
     sizes = _SIZE_PATTERN.match(text)
     layers = own_contact = None
+    base: Mapping[str, float] = {}
     own_friction: tuple[float | None, float | None] = (None, None)
     name: str
     if sizes:
@@ -103,6 +108,7 @@ def body_models(
         name = block.name
         if table["kind"] == "two-layer":
             layers, contact_values = two_layer_from_table(table, side), contact_from_table(table)
+            base = base_from_table(table)
             own_contact = Contact(**contact_values) if "mu" in contact_values else None
         own_friction = table_friction(table, text)
     if mu is not None:
@@ -118,6 +124,7 @@ def body_models(
         _make_spring_block(block, frequency_vertical),
         static,
         kinetic,
+        base,
     )
 
 

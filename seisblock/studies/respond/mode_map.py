@@ -17,9 +17,8 @@ from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_CELLS, check_limit
 from seisblock.core.typing import ArrayLike, FloatArray, IntArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.criteria.initiation import friction_to_rock, peak_loading_ratio
+from seisblock.criteria.initiation import Mode, friction_to_rock, peak_loading_ratio
 from seisblock.models.respond.batch import MODE_COLUMNS, RespondBatchResult, no_answer, respond_many
-from seisblock.models.respond.describe import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.models.respond.params import RespondBatchParams
 from seisblock.records import Motion
 from seisblock.records._validation import Gain, validate_motion, vertical_gain
@@ -27,7 +26,7 @@ from seisblock.records._validation import Gain, validate_motion, vertical_gain
 NO_ANSWER = N_("no answer")
 """Label of a body whose run was stopped without a result."""
 
-MODES_BY_SEVERITY = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT, OVERTURNED, NO_ANSWER)
+MODES_BY_SEVERITY = (Mode.REST, Mode.SLIDE, Mode.ROCK, Mode.SLIDE_ROCK, Mode.FLIGHT, Mode.OVERTURNED, NO_ANSWER)
 """Modes from the mildest to the worst; the worst visible one stands for a body. Last: bodies without a result."""
 
 VISIBLE_SLIP_M = 5e-4
@@ -198,6 +197,6 @@ def _worst_mode(result: RespondBatchResult, visible_flight_s: float) -> IntArray
             rotated,
             slid,
         ],
-        [MODES_BY_SEVERITY.index(mode) for mode in (NO_ANSWER, OVERTURNED, FLIGHT, SLIDE_ROCK, ROCK, SLIDE)],
-        MODES_BY_SEVERITY.index(REST),
+        [MODES_BY_SEVERITY.index(mode) for mode in (NO_ANSWER, Mode.OVERTURNED, Mode.FLIGHT, Mode.SLIDE_ROCK, Mode.ROCK, Mode.SLIDE)],
+        MODES_BY_SEVERITY.index(Mode.REST),
     )

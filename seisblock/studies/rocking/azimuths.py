@@ -41,6 +41,8 @@ class RockAzimuth(DisplayMixin):
         Smaller alpha of the two sides.
     gave_up : bool
         True for a run that was stopped without a result; the peak tilt is then 0.
+    overturning_probability : float or None
+        Share of the samples that overturn; None without samples.
     """
 
     azimuth_deg: float
@@ -50,6 +52,12 @@ class RockAzimuth(DisplayMixin):
     max_rotation_ratio: float
     slenderness_rad: float
     gave_up: bool = False
+    overturning_probability: float | None = None
+
+    @property
+    def moves(self) -> bool:
+        """True if the block rocks."""
+        return self.max_rotation_ratio > 0.0
 
 
 def rock_directions(
@@ -82,7 +90,7 @@ def rock_directions(
     >>> from seisblock.readers import read
     >>> worst = rock_directions(Block(0.24, 0.72), read("synthetic_jma.csv"), step_deg=45.0)[0]
     >>> worst.azimuth_deg, worst.overturned
-    (135.0, True)
+    (90.0, True)
     """
     azimuth_sweep = make_azimuth_sweep(body, record, step_deg=step_deg, vertical=options.vertical)
     params = rock_batch_params(to_block_array(azimuth_sweep.blocks), azimuth_sweep.motion, options)

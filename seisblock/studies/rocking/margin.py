@@ -160,13 +160,6 @@ def flag_near_flip(response: Response[RockOutcome]) -> Response[RockOutcome]:
     return replace(response, outcome=outcome, warnings=warnings)
 
 
-def has_nearby_flip(
-    block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, options: RockOptions = RockOptions()
-) -> bool:
-    """Return True if a factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
-    return nearest_flip(block, motion, share=share, steps=steps, options=options) is not None
-
-
 def nearest_flip(
     block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, options: RockOptions = RockOptions()
 ) -> float | None:

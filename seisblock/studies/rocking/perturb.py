@@ -2,61 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
-import numpy as np
+from dataclasses import dataclass
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.block_array import samples
 from seisblock.bodies.uncertainty import ParameterRanges
-from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import N_
-from seisblock.core.limits import MAX_RUNS, check_limit
-from seisblock.core.typing import FloatArray, Progress
+from seisblock.core.typing import Progress
 from seisblock.models.rock.options import RockOptions
-from seisblock.models.rock.params import RockBatchParams, rock_batch_params
 from seisblock.records import Motion
-from seisblock.records._validation import validate_inputs
 from seisblock.studies.intervals import wilson_interval
-from seisblock.studies.rocking.verdicts import parallel_verdicts
+from seisblock.studies.sampling import ParameterVariation, Samples, sample
 
 MODEL_SCATTER = N_("parameter variation only")
 """Scope of the probability of perturbed runs and of its interval: model error not included."""
-
-AMPLITUDE, AZIMUTH = 3, 4
-"""Columns of the draws that change the shaking."""
-
-
-@dataclass(frozen=True, repr=False)
-class Spread(DisplayMixin):
-    """Half widths of the uniform changes: relative, and in degrees for the azimuth.
-
-    Parameters
-    ----------
-    size, slenderness, restitution, amplitude : float
-        Relative, in [0, 1).
-    inset : float
-        Relative half width of a known inset, in [0, 1): sharp edges stay sharp. Unmeasured edges are drawn from the prior of the
-        block's kind instead; 0 takes them as known exactly.
-    azimuth_deg : float
-        Degrees; no effect if the record's second horizontal is unknown.
-    """
-
-    size: float = 0.05
-    slenderness: float = 0.05
-    restitution: float = 0.05
-    amplitude: float = 0.05
-    azimuth_deg: float = 5.0
-    inset: float = 0.1
-
-    def __post_init__(self) -> None:
-        checks.in_interval("the relative spread of the size", self.size, "[0, 1)")
-        checks.in_interval("the relative spread of the slenderness", self.slenderness, "[0, 1)")
-        checks.in_interval("the relative spread of the restitution", self.restitution, "[0, 1)")
-        checks.in_interval("the relative spread of the amplitude", self.amplitude, "[0, 1)")
-        checks.in_interval("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
-        checks.in_interval("the relative spread of the edge wear", self.inset, "[0, 1)")
 
 
 @dataclass(frozen=True, repr=False)
@@ -73,7 +32,7 @@ class Perturbation(DisplayMixin):
         Their ratio.
     probability_interval : (float, float), 1
         Wilson's interval at 95 %: sampling interval only.
-    spread : Spread
+    spread : ParameterVariation
     seed : int
     ranges : ParameterRanges or None
         Prior of the edge wear of the block's kind that replaces the relative half width.
@@ -85,7 +44,7 @@ class Perturbation(DisplayMixin):
     overturned: int
     probability: float
     probability_interval: tuple[float, float]
-    spread: Spread
+    spread: ParameterVariation
     seed: int
     interval_of: str = MODEL_SCATTER
     ranges: ParameterRanges | None = None
@@ -97,20 +56,20 @@ def perturb(
     motion: Motion,
     runs: int,
     *,
-    spread: Spread = Spread(),
+    spread: ParameterVariation = ParameterVariation(),
     seed: int = 0,
     progress: Progress | None = None,
     options: RockOptions = RockOptions(),
 ) -> Perturbation:
-    """Return the overturning probability of a block under changes of size, slenderness, edge wear, restitution, amplitude and azimuth.
+    """Compute the probability that a rocking block overturns from samples of its size, edge wear and restitution and of the shaking.
 
     Parameters
     ----------
     block, motion : Block, Motion
     runs : int
         Number of samples, at least 1.
-    spread : Spread
-        Half widths of the changes, each uniform and independent.
+    spread : ParameterVariation
+        Half widths of the samples.
     seed : int
         The same seed gives the same samples.
     progress : callable
@@ -131,52 +90,26 @@ def perturb(
     >>> result.runs, result.overturned
     (20, 20)
     """
-    checks.instance(spread, Spread)
-    checks.integer("the number of runs", runs, minimum=1)
-    check_limit(N_("Monte Carlo samples"), runs, MAX_RUNS)
-    validate_inputs(block, Block, motion)
-    azimuth_width = spread.azimuth_deg if motion.transverse.any() else 0.0
-    draws = draw_samples(runs, checks.seed(seed))
-    params = perturbed_rock_params(block, motion, spread, draws, options)
-    factor, angle = 1.0 + spread.amplitude * draws[:, AMPLITUDE], np.radians(azimuth_width * draws[:, AZIMUTH])
-    # +x rotated clockwise, seen from above
-    gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * params.vertical])
-    verdicts = parallel_verdicts(params, motion, gains, progress=progress)
-    count, completed = int(verdicts.overturned.sum()), int((~verdicts.gave_up).sum())
-    return Perturbation(
-        completed,
-        count,
-        count / completed,
-        wilson_interval(count, completed),
-        spread,
-        seed,
-        ranges=block.ranges and block.ranges.without("width_m", "height_m", "mu"),
-        no_answer=tuple((np.flatnonzero(verdicts.gave_up) + 1).tolist()),
-    )
+    return summarize(sample("rock", block, motion, options, runs, spread, seed=seed, progress=progress), block)
 
 
-def draw_samples(runs: int, seed: int) -> FloatArray:
-    """Return the draws of a number of samples of a block and its shaking, (runs, 7), uniform in [-1, 1]."""
-    rng = np.random.default_rng(seed)
-    # wear and the last column are drawn after the first five, so that those keep their values for a seed
-    return np.column_stack([rng.uniform(-1.0, 1.0, (runs, 5)), rng.uniform(-1.0, 1.0, runs), rng.uniform(-1.0, 1.0, runs)])
-
-
-def perturbed_rock_params(
-    block: Block, motion: Motion, spread: Spread, draws: FloatArray, options: RockOptions = RockOptions()
-) -> RockBatchParams:
-    """Return the parameters of the samples of a rocking block, from draws of each parameter within its spread.
+def summarize(samples: Samples, block: Block) -> Perturbation:
+    """Return the probability of samples of a rocking block.
 
     Parameters
     ----------
-    block, motion, spread, options
-        As in :func:`perturb`.
-    draws : (m, 7) array
-        From :func:`draw_samples`.
+    samples : Samples
+    block : Block
+        Their median.
     """
-    size, slenderness, bounce, _, _, wear, _ = draws.T
-    larger = 1.0 + spread.size * size
-    blocks = samples(block, spread.inset, wide=larger * (1.0 + spread.slenderness * slenderness), tall=larger, worn=wear)
-    params = rock_batch_params(blocks, motion, options)
-    # a restitution above 1 would create energy
-    return replace(params, restitutions=np.minimum(params.restitutions * (1.0 + spread.restitution * bounce[:, None]), 1.0))
+    count = int(samples.overturned.sum())
+    return Perturbation(
+        samples.completed,
+        count,
+        samples.probability,
+        wilson_interval(count, samples.completed),
+        samples.variation,
+        samples.seed,
+        ranges=block.ranges and block.ranges.without("width_m", "height_m", "mu"),
+        no_answer=samples.stopped,
+    )

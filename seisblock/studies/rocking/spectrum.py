@@ -201,12 +201,24 @@ def slenderness_of(height_over_width: ArrayLike) -> FloatArray:
 
 
 def default_sizes(steps: int) -> FloatArray:
-    """Return 2R from 0.2 to 8 m, logarithmically spaced: from a vase to a shrine pavilion."""
+    """Return 2R from 0.2 to 8 m, logarithmically spaced: from a vase to a shrine pavilion.
+
+    Examples
+    --------
+    >>> default_sizes(3).round(3).tolist()
+    [0.2, 1.265, 8.0]
+    """
     return np.geomspace(0.2, 8.0, steps)
 
 
 def default_slendernesses(steps: int) -> FloatArray:
-    """Return alpha of H/B from 10 to 1.5, evenly spaced in alpha, rad."""
+    """Return alpha of H/B from 10 to 1.5, evenly spaced in alpha, rad.
+
+    Examples
+    --------
+    >>> (1.0 / np.tan(default_slendernesses(3))).round(3).tolist()
+    [10.0, 2.793, 1.5]
+    """
     return np.linspace(math.atan(1 / 10), math.atan(1 / 1.5), steps)
 
 

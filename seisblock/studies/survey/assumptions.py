@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
 from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.table import PAPER_WIDTH
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import FloatArray
+from seisblock.criteria.gravestones import overturning_level
 from seisblock.studies.survey.likelihood import (
     BIAS,
     COMMON_ERROR,
+    INTENSITY_CONSTANT,
+    INTENSITY_ERROR,
+    INTENSITY_PER_LN,
     KNOWN_WEAR_ERROR,
     SHARP_BIAS,
     STONE_ERROR,
@@ -58,6 +63,10 @@ class Assumptions(DisplayMixin):
         Excess of the PGA of the ground over that of the criterion, in ln PGA; see :mod:`seisblock.studies.survey.likelihood`.
     frequency_error : float
         Standard deviation of a given equivalent frequency, in ln f.
+    intensity_constant : float or None, 1
+        JMA intensity at which a stone of H/B = 1 falls; None: the intensity follows from PGV ([Midorikawa1999]_).
+    intensity_error : float, 1
+        Standard deviation of the intensity, of a cemetery.
     """
 
     common_error: float = COMMON_ERROR
@@ -66,6 +75,8 @@ class Assumptions(DisplayMixin):
     limits: Limits = fitted_limits
     bias: float = BIAS
     frequency_error: float = FREQUENCY_ERROR
+    intensity_constant: float | None = INTENSITY_CONSTANT
+    intensity_error: float = INTENSITY_ERROR
 
     def __post_init__(self) -> None:
         checks.in_interval("the level of the intervals", self.level, "(0, 1)")
@@ -81,6 +92,17 @@ class Assumptions(DisplayMixin):
         # normal weights over ln f
         weights = np.exp(-0.5 * steps**2)
         return (frequency * np.exp(self.frequency_error * steps)).tolist(), weights / weights.sum()
+
+    def intensity_likelihood(self, survey: Survey) -> Likelihood:
+        """Return the likelihood of a survey over the logarithm of the amplitude, JMA intensity / :data:`INTENSITY_PER_LN`.
+
+        The frequency cancels: the limits of all stones scale alike with it.
+        """
+        frequency = math.sqrt(FREQUENCY_BAND[0] * FREQUENCY_BAND[1])
+        constant = INTENSITY_CONSTANT if self.intensity_constant is None else self.intensity_constant
+        bias = constant / INTENSITY_PER_LN - math.log(float(overturning_level(frequency)))
+        error = self.intensity_error / INTENSITY_PER_LN
+        return likelihood(survey, frequency, common_error=error, stone_error=self.stone_error, bias=bias, limits=self.limits)
 
     def likelihoods(self, survey: Survey, frequencies: Sequence[float]) -> list[Likelihood]:
         """Return the likelihood of a survey at each frequency."""
@@ -101,7 +123,12 @@ def make_assumptions(edges: EdgeWear | None, **overrides: Any) -> Assumptions:
         Fields of :class:`Assumptions`; None for the default.
     """
     values = {name: value for name, value in overrides.items() if value is not None}
+    if "limits" in values:
+        # the constant belongs to the fitted criterion
+        values["intensity_constant"] = None
     if edges is not None:
         share = edges.inset(PAPER_WIDTH) / PAPER_WIDTH
-        values = {"bias": SHARP_BIAS + WEAR_BIAS_SLOPE * share, "common_error": KNOWN_WEAR_ERROR, **values}
+        known_bias = SHARP_BIAS + WEAR_BIAS_SLOPE * share
+        constant = INTENSITY_CONSTANT + INTENSITY_PER_LN * (known_bias - BIAS)
+        values = {"bias": known_bias, "common_error": KNOWN_WEAR_ERROR, "intensity_constant": constant, **values}
     return Assumptions(**values)

@@ -16,13 +16,20 @@ from seisblock.core.typing import FloatArray
 from seisblock.criteria.gravestones import DOWELLED_NOTE, fit_range_warnings
 from seisblock.criteria.intensity import FITTED_INTENSITY, SCATTER, intensity_from_velocity
 from seisblock.measures import jma_class
-from seisblock.studies.survey.assumptions import Assumptions
-from seisblock.studies.survey.likelihood import Likelihood, Survey
+from seisblock.studies.survey.assumptions import FREQUENCY_BAND, Assumptions
+from seisblock.studies.survey.likelihood import INTENSITY_PER_LN, Likelihood, Survey, log_likelihood
 from seisblock.studies.survey.limits import Limits
 from seisblock.studies.survey.overturning_rate import threshold_ratio
+from seisblock.studies.survey.stones import StoneResult, stone_results
 
 PLAIN_STONES, DOWELLED_STONES, ALL_STONES = N_("not reinforced"), N_("reinforced"), N_("all")
 """Names of the groups of stones, estimated separately and together."""
+
+RULE = ((0.9, "7"), (0.4, "6+"))
+"""Surveyors' rule: smallest overturning rate and JMA class."""
+
+LEVELS = 601
+"""Levels of the criterion over which the outcome of each stone is averaged."""
 
 Interval = tuple[float | None, float | None]
 
@@ -47,9 +54,11 @@ class ShakingEstimate(DisplayMixin):
     threshold_ratio, threshold_ratio_interval
         Smallest overturning H/B; for all stones, that of stones without a dowel.
     jma_intensity, jma_intensity_interval : float or None, two of them, 1
-        From PGV, the scatter of that relation included.
+        From the H/B of the stones; with the criterion rigid from PGV. Their scatter is included.
     jma_classes : two str or None
         JMA classes of that interval's ends.
+    jma_class_by_rule : str or None
+        Class by the surveyors' rule, see :func:`class_by_rule`; None below 40 %.
     """
 
     stones: str
@@ -66,6 +75,7 @@ class ShakingEstimate(DisplayMixin):
     jma_intensity: float | None
     jma_intensity_interval: Interval
     jma_classes: tuple[str | None, str | None]
+    jma_class_by_rule: str | None
 
 
 def estimate_shaking(
@@ -101,7 +111,7 @@ def estimate_shaking(
     >>> from seisblock.studies.survey.likelihood import counted_survey
     >>> estimate = estimate_shaking(counted_survey(read_cemetery("aoyama.csv"), 35, 100), 2.75)
     >>> round(estimate.pga_m_s2, 1)
-    9.5
+    9.7
     """
     checks.instance(survey, Survey)
     settings = assumptions or Assumptions()
@@ -120,7 +130,15 @@ def estimate_shaking(
         if frequency is None
         else tuple(_ratio(None if a is None else a * bias_factor, frequency, name, settings.limits) for a in pga)
     )
-    intensity = _intensities(pgv, settings.level)
+    if settings.intensity_constant is None:
+        intensity = _intensities(pgv, settings.level)
+    else:
+        part = settings.intensity_likelihood(survey)
+        low, middle, high = (
+            None if value is None else INTENSITY_PER_LN * math.log(value)
+            for value in _summary(part.log_pga, part.value, bound, settings.level)
+        )
+        intensity = low, middle, high
     return ShakingEstimate(
         name,
         survey.fell,
@@ -137,7 +155,42 @@ def estimate_shaking(
         intensity[1],
         (intensity[0], intensity[2]),
         (_class(intensity[0]), _class(intensity[2])),
+        class_by_rule(survey.fell / survey.stone_count),
     )
+
+
+def class_by_rule(rate: float) -> str | None:
+    """Return the JMA class that the surveyors' rule gives for the overturning rate of a cemetery.
+
+    From 40 to below 90 % mean 6 upper, 90 % and more mean 7; the rule has no class below.
+
+    Examples
+    --------
+    >>> [class_by_rule(rate) for rate in (0.39, 0.4, 0.52, 0.9)]
+    [None, '6+', '6+', '7']
+    """
+    return next((name for lowest, name in RULE if rate >= lowest), None)
+
+
+def fitted_stones(survey: Survey, frequency: float | None = None, assumptions: Assumptions | None = None) -> tuple[StoneResult, ...]:
+    """Return the outcome of each row of a survey at the estimated shaking ([Furukawa2009]_ eqs. (9), (10)).
+
+    The common error and the bias cancel: the level of the criterion follows from the stones alone. The threshold is the PGA at which a
+    stone falls, with the bias, at the given frequency or in the middle of the band.
+    """
+    from scipy.special import ndtr
+
+    settings = assumptions or Assumptions()
+    middle = math.sqrt(FREQUENCY_BAND[0] * FREQUENCY_BAND[1]) if frequency is None else frequency
+    limits = np.log(settings.limits(survey.rows, middle))
+    levels = np.linspace(limits.min() - 3.0, limits.max() + 3.0, LEVELS)
+    logs = log_likelihood(survey, levels, middle, settings.stone_error, settings.limits)
+    weights = np.exp(logs - logs.max())
+    falls = ndtr((levels[:, None] - limits[None, :]) / settings.stone_error)
+    probabilities = weights @ falls / weights.sum()
+    # the falls of a count are not those of the listed stones
+    cemetery = survey.cemetery.without_outcomes() if survey.counts else survey.cemetery
+    return stone_results(cemetery, np.exp(limits + settings.bias), probabilities >= 0.5, probabilities)
 
 
 def stone_groups(survey: Survey) -> Iterator[tuple[str, Survey]]:

@@ -7,8 +7,9 @@ from collections.abc import Callable
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.edge_wear import DEFAULT_WEAR, EdgeWear
+from seisblock.bodies.table import PAPER_WIDTH
 from seisblock.core.errors import ParameterError
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
@@ -53,7 +54,7 @@ def rigid_limits(
     frequency : float, Hz
         As for :func:`fitted_limits`.
     inset : EdgeWear
-        Edge wear: a length, or a share of the width, per side.
+        Edge wear of stones without their own: a length, or a share of the width, per side.
     width : float, m
         Width of stones of unknown width.
     gravity : float, m/s^2
@@ -71,8 +72,15 @@ def rigid_limits(
     if not frequency >= 0.0:
         raise ParameterError("`frequency` must be zero or positive, found {frequency} Hz", frequency=frequency)
     # equal stones share one limit: cemeteries have many of one size
-    sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
-    return np.array([_rigid_limit(Block(b, b * ratio).with_wear(inset), frequency, gravity) for ratio, b in sizes.tolist()])[index.ravel()]
+    limits: dict[Block, float] = {}
+    values = []
+    for stone in cemetery.stones:
+        b = width if stone.width is None else stone.width
+        block = Block(b, b * stone.height_over_width).with_wear(inset if stone.inset is None else stone.inset)
+        if block not in limits:
+            limits[block] = _rigid_limit(block, frequency, gravity)
+        values.append(limits[block])
+    return np.repeat(np.array(values), [stone.count for stone in cemetery.stones])
 
 
 def _rigid_limit(stone: Block, frequency: float, gravity: float) -> float:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.edge_wear import DEFAULT_WEAR, SHARP_EDGES
+from seisblock.bodies.table import PAPER_WIDTH
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records import Motion
 from seisblock.records._validation import Gain

@@ -232,9 +232,9 @@ def jump_displacement(block: TwoLayerBlock, motion: Motion, options: JumpOptions
 
     if flight_only:
         return partial(single, key="jump_displacement_m")
-    if options.windows:
+    if options.windows or options.tenon:
         return single
-    rows = {key: value for key, value in options.keywords().items() if key not in ("windows", "contact")}
+    rows = {key: value for key, value in options.keywords().items() if key not in ("windows", "contact", "tenon")}
 
     def vectorized(factors: FloatArray) -> FloatArray:
         result = jump_many([block], motion, contacts=[options.contact], factors=factors, **rows)

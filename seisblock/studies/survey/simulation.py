@@ -1,30 +1,36 @@
 """Simulated overturning of the stones of a cemetery, each as one rocking rigid block.
 
-A block that rocks about the edges of its base requires more shaking than [Furukawa2009]_ eq. (9), fitted to whole piles; under sines
-it agrees within a tenth for edges worn by 0.1 of the width per side, the position of the outermost of 5 x 5 contact points. The
-default wear is the median of gravestones (:data:`~seisblock.bodies.edge_wear.DEFAULT_WEAR`).
+A block that rocks about the edges of its base requires more shaking than [Furukawa2009]_ eq. (9), fitted to whole piles. The edges are
+those of the sheet, of the call, or drawn from the prior of gravestones (:data:`~seisblock.bodies.edge_wear.WORN_RANGE`), whose median
+is the wear of the nominal stone. A stone falls if either horizontal component overturns it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.block_array import rectangular_blocks
-from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
-from seisblock.bodies.edge_wear import DEFAULT_WEAR, EdgeWear
+from seisblock.bodies.block_array import to_block_array
+from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.kinds import GRAVESTONE, of_kind
+from seisblock.bodies.table import PAPER_WIDTH
 from seisblock.core import checks
-from seisblock.core.typing import BoolArray, Progress
+from seisblock.core.typing import BoolArray, FloatArray, IntArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
 from seisblock.records import Motion
 from seisblock.records._validation import Gain
 from seisblock.studies.rocking.verdicts import parallel_verdicts
+from seisblock.studies.sampling import ParameterVariation, draw_samples, sample_gains, sample_rock_params
 from seisblock.studies.survey.limits import require_undowelled
 from seisblock.studies.survey.overturning_rate import CurvePoint
+from seisblock.studies.survey.stones import either
 
 SIMULATED_PGA = tuple(float(i) for i in range(1, 14))
 """Amplitudes of simulated curves, m/s^2 ([Furukawa2009]_ section 3(3)a)."""
@@ -57,22 +63,29 @@ def sine_motion(pga: float, frequency: float) -> Motion:
     return Motion.from_arrays(pga * np.sin(phase), dt, name=f"sine {frequency:g} Hz")
 
 
-def sao(height_over_width: float, width: float = PAPER_WIDTH, *, inset: EdgeWear = DEFAULT_WEAR) -> Block:
-    """Return the upper stone (sao) of a grave as a rigid block with worn edges.
+def stone_block(stone: Stone, *, inset: EdgeWear | None = None, width: float = PAPER_WIDTH) -> Block:
+    """Return the upper stone of a grave as a rigid block.
 
     Parameters
     ----------
-    height_over_width, width : float, 1 and m
-        H/B and B of the homogeneous stone.
-    inset : EdgeWear
-        Per side.
-
-    Raises
-    ------
-    ParameterError
-        If the inset leaves nothing of the base.
+    stone : Stone
+        Its own edge wear precedes `inset`.
+    inset : EdgeWear or None
+        Edge wear; None: the prior of gravestones, with its median as nominal value.
+    width : float, m
+        Width of a stone of unknown width.
     """
-    return Block(width, width * height_over_width, name="sao").with_wear(inset)
+    b = width if stone.width is None else stone.width
+    sharp = Block(b, b * stone.height_over_width, name="sao")
+    known_inset = inset if stone.inset is None else stone.inset
+    return of_kind(sharp, GRAVESTONE) if known_inset is None else sharp.with_wear(known_inset)
+
+
+def _distinct_blocks(cemetery: Cemetery, inset: EdgeWear | None, width: float) -> tuple[list[Block], IntArray]:
+    """Return the blocks of different stones, and the index of the block of each row: equal stones share their runs."""
+    index: dict[Block, int] = {}
+    rows = [index.setdefault(stone_block(stone, inset=inset, width=width), len(index)) for stone in cemetery.stones]
+    return list(index), np.array(rows)
 
 
 def simulated_overturns(
@@ -80,7 +93,7 @@ def simulated_overturns(
     motion: Motion,
     *,
     scale: float = 1.0,
-    inset: EdgeWear = DEFAULT_WEAR,
+    inset: EdgeWear | None = None,
     width: float = PAPER_WIDTH,
     vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
@@ -94,8 +107,8 @@ def simulated_overturns(
     motion : Motion
     scale : float
         Factor on the motion.
-    inset : EdgeWear
-        As for :func:`sao`.
+    inset : EdgeWear or None
+        Edge wear of stones without their own; None: the median of gravestones.
     width : float, m
         Width of stones of unknown width.
     vertical : bool, float or None
@@ -108,19 +121,72 @@ def simulated_overturns(
         If a stone is reinforced, or the inset leaves nothing of a base.
     """
     require_undowelled(cemetery)
-    # equal stones share one run
-    sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
-    ratio, b = sizes.T
-    stones = rock_batch_params(rectangular_blocks(b, b * ratio, inset), motion, options=RockOptions(vertical=vertical, gravity=gravity))
-    return parallel_verdicts(stones, motion, stones.gains(scale)).overturned[index.ravel()]
+    blocks, index = _distinct_blocks(cemetery, inset, width)
+    stones = rock_batch_params(to_block_array(blocks), motion, options=RockOptions(vertical=vertical, gravity=gravity))
+    falls = parallel_verdicts(stones, motion, stones.gains(scale)).overturned[index]
+    return np.repeat(falls, [stone.count for stone in cemetery.stones])
+
+
+def sampled_overturns(
+    cemetery: Cemetery,
+    motion: Motion,
+    runs: int,
+    *,
+    variation: ParameterVariation = ParameterVariation(),
+    seed: int = 0,
+    inset: EdgeWear | None = None,
+    width: float = PAPER_WIDTH,
+    vertical: Gain | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    progress: Progress | None = None,
+) -> BoolArray:
+    """Return the samples of each row of a cemetery that overturn under a motion, (rows, runs).
+
+    Sizes, restitution and shaking vary by their tolerances, unmeasured edges over the prior of gravestones; all stones, and all
+    directions of one record, share the draws.
+
+    Parameters
+    ----------
+    cemetery, motion, inset, width, vertical, gravity
+        As for :func:`simulated_overturns`.
+    runs : int
+        Number of samples of each stone.
+    variation : ParameterVariation
+        Tolerances.
+    seed : int
+    progress : callable
+        Called with the number of finished runs and the total.
+    """
+    require_undowelled(cemetery)
+    options = RockOptions(vertical=vertical, gravity=gravity)
+    blocks, index = _distinct_blocks(cemetery, inset, width)
+    draws = draw_samples(runs, checks.seed(seed))
+    parts = [sample_rock_params(block, motion, variation, draws, options) for block in blocks]
+    stones = replace(
+        parts[0],
+        alphas=np.concatenate([part.alphas for part in parts]),
+        levers=np.concatenate([part.levers for part in parts]),
+        restitutions=np.concatenate([part.restitutions for part in parts]),
+    )
+    gains = np.tile(sample_gains(motion, variation, draws, vertical), (len(blocks), 1))
+    overturned = parallel_verdicts(stones, motion, gains, progress=progress).overturned
+    return overturned.reshape(len(blocks), runs)[index]
+
+
+def rocking_thresholds(
+    cemetery: Cemetery, *, inset: EdgeWear | None = None, width: float = PAPER_WIDTH, gravity: float = STANDARD_GRAVITY
+) -> FloatArray:
+    """Return the acceleration at which each row of a cemetery starts to rock, (rows,), m/s^2 ([Furukawa2009]_ eq. (2))."""
+    blocks, index = _distinct_blocks(cemetery, inset, width)
+    return np.array([block.rocking_threshold(gravity) for block in blocks])[index]
 
 
 def simulated_curve(
     cemetery: Cemetery,
-    motions: Sequence[tuple[Motion, float]],
+    motions: Sequence[tuple[Sequence[Motion], float]],
     pga: Sequence[float] = SIMULATED_PGA,
     *,
-    inset: EdgeWear = DEFAULT_WEAR,
+    inset: EdgeWear | None = None,
     width: float = PAPER_WIDTH,
     vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
@@ -131,20 +197,21 @@ def simulated_curve(
     Parameters
     ----------
     cemetery : Cemetery
-    motions : sequence of (Motion, float)
-        With the frequency, or equivalent frequency, of each, Hz.
+    motions : sequence of (motions, float)
+        Components that act on each stone, with their frequency, or equivalent frequency, Hz. A stone falls under any of them.
     pga : sequence of float, m/s^2
-        Levels to which each motion is scaled.
+        Levels to which the largest component is scaled.
     inset, width, vertical, gravity
         As for :func:`simulated_overturns`.
     progress : callable
         Called with the number of finished points and the total.
     """
     points: list[CurvePoint] = []
-    for motion, frequency in motions:
-        peak = float(np.abs(motion.horizontal).max())
+    options: dict[str, Any] = {"inset": inset, "width": width, "vertical": vertical, "gravity": gravity}
+    for components, frequency in motions:
+        peak = max(float(np.abs(motion.horizontal).max()) for motion in components)
         for level in pga:
-            falls = simulated_overturns(cemetery, motion, scale=level / peak, inset=inset, width=width, vertical=vertical, gravity=gravity)
+            falls = either([simulated_overturns(cemetery, motion, scale=level / peak, **options) for motion in components])
             points.append(CurvePoint(float(level), frequency, float(falls.mean())))
             if progress is not None:
                 progress(len(points), len(motions) * len(pga))

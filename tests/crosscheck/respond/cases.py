@@ -22,8 +22,8 @@ class Case:
 
     def mirrored(self) -> Case:
         """Return the same case seen from behind."""
-        turned = None if self.initial is None else tuple(s * v for s, v in zip((-1, 1, -1, -1, 1, -1), self.initial, strict=True))
-        return replace(self, body=replace(self.body, arms=self.body.arms[::-1]), along=-self.along, initial=turned)
+        rotated = None if self.initial is None else tuple(s * v for s, v in zip((-1, 1, -1, -1, 1, -1), self.initial, strict=True))
+        return replace(self, body=replace(self.body, arms=self.body.arms[::-1]), along=-self.along, initial=rotated)
 
 
 def some_body(rng: np.random.Generator) -> Body:
@@ -37,8 +37,8 @@ def some_body(rng: np.random.Generator) -> Body:
     mu *= rng.random() > 0.04
     kinetic = mu * rng.choice([1.0, rng.uniform(0.5, 1.0)])
     e = rng.choice([0.0, rng.uniform(0.1, 0.8)])
-    own = float(rng.uniform(0.0, 1.0)) if rng.random() < 0.2 else None
-    return Body(arms, h, float(k2), float(mu), float(kinetic), float(e), own)
+    body_value = float(rng.uniform(0.0, 1.0)) if rng.random() < 0.2 else None
+    return Body(arms, h, float(k2), float(mu), float(kinetic), float(e), body_value)
 
 
 def shaking(rng: np.random.Generator, n: int, dt: float, strength: float) -> np.ndarray:

@@ -25,7 +25,7 @@ PAINLEVE = 1e-8
 
 @dataclass(frozen=True)
 class Body:
-    """What moves, and how its corners touch: arms to the right and the left corner, height, squared gyration radius."""
+    """Body and its contact corners: arms to the right and the left corner, height, squared gyration radius."""
 
     arms: tuple[float, float]
     h: float
@@ -44,7 +44,7 @@ class Body:
 
 
 class Push(NamedTuple):
-    """What acts on every unit of mass: ground acceleration along x, and gravity with the vertical ground acceleration."""
+    """Forces per unit mass: ground acceleration along x, and gravity with the vertical ground acceleration."""
 
     along: float
     weight: float

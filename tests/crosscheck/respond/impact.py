@@ -125,8 +125,8 @@ def impact_of_both(body: Body, state) -> list[float]:
             after[OMEGA] = after[VY] = 0.0
             after[VX] = after[SLIP]
         rises = all(after[RATE + corner] >= 0 for corner in (RIGHT, LEFT))
-        held = abs(tangential) <= body.mu_kinetic * sum(normal) if contact == 0 else contact * after[SLIP] >= 0
-        if rises and held and min(normal) >= 0:
+        holding = abs(tangential) <= body.mu_kinetic * sum(normal) if contact == 0 else contact * after[SLIP] >= 0
+        if rises and holding and min(normal) >= 0:
             return align_with_corner(body, after, RIGHT if mode[RIGHT] is not None else LEFT)
     return state
 
@@ -142,15 +142,15 @@ def impact_with_factor(body: Body, state, corner: int) -> tuple[list[float], boo
         after[OMEGA] = share * state[OMEGA]
         rx, ry = lever(body, corner, 0.0)
         pressed = rx * after[OMEGA] - state[VY]
-        wanted = -ry * after[OMEGA] - state[VX]
+        expected = -ry * after[OMEGA] - state[VX]
         after[RATE + corner] = 0.0
         after[SLIP + corner] = 0.0
-        if abs(wanted) > body.mu_kinetic * pressed:
-            given = math.copysign(body.mu_kinetic * pressed, wanted)
-            after[SLIP + corner] = state[VX] + given + ry * after[OMEGA]
-        other = 1 - corner
-        after[SLIP + other] = after[SLIP + corner]
-        after[RATE + other] = (rx - lever(body, other, 0.0)[0]) * after[OMEGA]
+        if abs(expected) > body.mu_kinetic * pressed:
+            values = math.copysign(body.mu_kinetic * pressed, expected)
+            after[SLIP + corner] = state[VX] + values + ry * after[OMEGA]
+        second = 1 - corner
+        after[SLIP + second] = after[SLIP + corner]
+        after[RATE + second] = (rx - lever(body, second, 0.0)[0]) * after[OMEGA]
         return align_with_corner(body, after, corner)
 
     before = kinetic(body, state)
@@ -199,10 +199,10 @@ def after_landing(body: Body, state, corner: int, push: Push) -> list[float]:
         still = impact_of_corner(body, state, corner, 0.0)
         if remains_closed(body, still, corner, push):
             after = still
-    other = 1 - corner
-    approach = -after[RATE + other]
-    if after[RATE + corner] == 0 and approach > 0 and after[GAP + other] < AT_ONE_INSTANT * approach * body.slow / body.gravity:
-        after[THETA] = after[GAP + other] = 0.0
+    second = 1 - corner
+    approach = -after[RATE + second]
+    if after[RATE + corner] == 0 and approach > 0 and after[GAP + second] < AT_ONE_INSTANT * approach * body.slow / body.gravity:
+        after[THETA] = after[GAP + second] = 0.0
         return impact_of_both(body, align_with_corner(body, after, corner))
     return after
 

@@ -42,7 +42,7 @@ MOST_EVENTS = 20000
 
 @dataclass
 class Trace:
-    """What happened: `events` as (time, mode, corner, slip), the state at every sample and at the end, counts and energies per mass."""
+    """Reference response: `events` as (time, mode, corner, slip), the state at every sample and at the end, counts, energies per mass."""
 
     body: Body
     events: list = field(default_factory=list)
@@ -165,13 +165,13 @@ class Run:
     def rock(self, corner: int) -> None:
         """Let the open corner of a rocking block come down."""
         body, state = self.body, self.state
-        other = 1 - corner
+        second = 1 - corner
         state[THETA] = 0.0
-        state[GAP + corner] = state[RATE + other] = 0.0
-        state[RATE + corner] = (lever(body, other, 0.0)[0] - lever(body, corner, 0.0)[0]) * state[OMEGA]
-        state[SLIP + corner] = state[SLIP + other]
+        state[GAP + corner] = state[RATE + second] = 0.0
+        state[RATE + corner] = (lever(body, second, 0.0)[0] - lever(body, corner, 0.0)[0]) * state[OMEGA]
+        state[SLIP + corner] = state[SLIP + second]
         push, later = self.ground.piece(self.k, self.offset)(0.0), self.ground.later(self.k, self.offset)
-        after, lowered = after_rocking_impact(body, align_with_corner(body, state, other), corner, push, later)
+        after, lowered = after_rocking_impact(body, align_with_corner(body, state, second), corner, push, later)
         self.trace.counts["lowered"] += lowered
         self.change(after)
 
@@ -224,11 +224,11 @@ class Run:
         values, names = guard_functions(body, mode, push)
         scale, deaf = self.thrown(rates, names)
         for start, end, before, after, dense in integration_steps(rates, self.state, length, 0.5 * scale):
-            found = first_zero(lambda tau: values(tau, dense(tau).tolist()), start, end, deaf)  # noqa: B023
-            if found is None:
+            result = first_zero(lambda tau: values(tau, dense(tau).tolist()), start, end, deaf)  # noqa: B023
+            if result is None:
                 last = after
                 continue
-            time, index = found
+            time, index = result
             self.state = state_at_event(rates, before, time - start, start) if time > start else before
             self.offset += time
             self.happen(names[index])
@@ -245,16 +245,16 @@ class Run:
         """
         state, scale = self.state, math.inf
         moving = rates(0.0, np.array(state))
-        heard = set()
+        events = set()
         for corner, name in ((RIGHT, "right lands"), (LEFT, "left lands")):
             if self.mode[corner] is None and state[GAP + corner] == 0 and state[RATE + corner] > 0:
                 fall = -moving[RATE + corner]
                 scale = min(scale, state[RATE + corner] / fall) if fall > 0 else scale
             if self.mode[corner] is None and max(state[GAP + corner], state[RATE + corner]) > 0:
-                heard |= {name, "other lands"}
+                events |= {name, "other lands"}
             if self.mode[corner] is not None and state[SLIP + corner] != 0:
-                heard.add("slip ends")
-        return scale, [-1.0 if name in heard else self.deaf - self.now for name in names]
+                events.add("slip ends")
+        return scale, [-1.0 if name in events else self.deaf - self.now for name in names]
 
     def jump(self) -> None:
         """Judge the mode by an input that has changed at once, at the end of the record."""

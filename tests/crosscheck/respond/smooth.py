@@ -72,20 +72,20 @@ def guard_functions(body: Body, mode, push):
         return lambda tau, state: [state[GAP], state[GAP + 1], *of_ends(state)], ["right lands", "left lands", *ends]
     corner = closed[0]
     contact = mode[corner]
-    other = 1 - corner
+    second = 1 - corner
 
     def gripping(tau, state):
         force = reaction(body, jacobians(body, state[THETA]), state[OMEGA], push(tau), mode)
         normal = force.normal[corner]
         hold = body.mu * normal
-        return [hold - force.tangential, hold + force.tangential, normal, state[GAP + other], *of_ends(state)]
+        return [hold - force.tangential, hold + force.tangential, normal, state[GAP + second], *of_ends(state)]
 
     def slipping(tau, state):
         now = push(tau)
         jacobian = jacobians(body, state[THETA])
         fall = corner_acceleration(jacobian[corner], state[OMEGA], (-now.along, -now.weight, 0.0))[0]
         yields = reaction(body, jacobian, state[OMEGA], now, mode).mobility
-        return [contact * state[SLIP + corner], -fall, yields - PAINLEVE, state[GAP + other], *of_ends(state)]
+        return [contact * state[SLIP + corner], -fall, yields - PAINLEVE, state[GAP + second], *of_ends(state)]
 
     if contact == 0:
         return gripping, ["slips", "slips", "lifts", "other lands", *ends]
@@ -137,12 +137,12 @@ def first_zero(values, start: float, end: float, deaf) -> tuple[float, int] | No
     nodes = sorted(nodes)
     table = np.array([values(node) for node in nodes])
     nodes = np.array(nodes)
-    found = [
+    result = [
         (time, i)
         for i, since in enumerate(deaf)
         if (time := guard_zero(lambda tau: values(tau)[i], nodes[nodes >= since], table[nodes >= since, i])) is not None  # noqa: B023
     ]
-    return min(found, default=None)
+    return min(result, default=None)
 
 
 def guard_zero(value, nodes, column) -> float | None:
@@ -154,8 +154,8 @@ def guard_zero(value, nodes, column) -> float | None:
             return brentq(value, nodes[k - 1], nodes[k], **SHARP) if column[k - 1] > 0 else float(nodes[k - 1])
         low = k + 1 < column.size and column[k] <= min(column[k - 1], column[k + 1])
         if low and column[k] < 0.3 * (column[k - 1] + column[k + 1]):
-            near = {"xatol": 1e-9 * (nodes[-1] - nodes[0])}
-            dip = minimize_scalar(value, bounds=(nodes[k - 1], nodes[k + 1]), method="bounded", options=near)
+            nearby = {"xatol": 1e-9 * (nodes[-1] - nodes[0])}
+            dip = minimize_scalar(value, bounds=(nodes[k - 1], nodes[k + 1]), method="bounded", options=nearby)
             if dip.fun < 0:
                 return brentq(value, nodes[k - 1], dip.x, **SHARP)
     return None

@@ -47,7 +47,7 @@ def step_through(arms, h, k2, mu, gravity, along, up, dt, step, start, settle):
     n = along.size
     steps = round(((n - 1) * dt + settle) / step)
     still = 0
-    far = lean = 0.0
+    distant = lean = 0.0
     for i in range(steps):
         time = (i + 0.5) * step
         k = int(time / dt)
@@ -86,12 +86,12 @@ def step_through(arms, h, k2, mu, gravity, along, up, dt, step, start, settle):
                 break
         vx, vy, omega = velocity
         x, y, theta = x + step / 2 * vx, y + step / 2 * vy, theta + step / 2 * omega
-        far, lean = max(far, abs(x)), max(lean, abs(theta))
+        distant, lean = max(distant, abs(x)), max(lean, abs(theta))
         moving = abs(vx) + abs(vy) + abs(omega) > 1e-6
         still = 0 if moving else still + 1
         if lean > math.pi / 2:
             break
-    return np.array([time, x, y, theta, vx, vy, omega, far, lean])
+    return np.array([time, x, y, theta, vx, vy, omega, distant, lean])
 
 
 def end_state(case: Case, step: float, settle: float = 10.0) -> np.ndarray:

@@ -11,10 +11,10 @@ from seisblock.core.results import Status
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import constants, solve_respond
 from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.describe import describe
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
-from seisblock.report.text.respond import describe
 from tests.models.respond.cases import SLENDER, at_lean, sequence, solve_case, still_ground
 
 
@@ -77,7 +77,7 @@ def test_restitution_near_one_ends_with_unresolved_status():
         SLENDER, still_ground(1.0), **NEARLY_LOSSLESS, initial=at_lean(SLENDER, 1e-8), settle_s=10.0, sensitivity=False
     )
     assert response.status is Status.TOO_MANY_EVENTS
-    assert response.outcome.outcome == "hops without end"
+    assert response.outcome.outcome == "still bouncing"
     assert not response.outcome.settled
     assert any("still bouncing" in text for text in response.warnings)
     assert "no result: analysis stopped at" in describe(response, gal=True)
@@ -109,7 +109,7 @@ def test_slide_longer_than_settle_s_ends_with_time_limit_status():
     start = (0.0, 0.25, 0.0, 1.0, 0.0, 0.0)
     short = solve_respond(Block(0.5, 0.5), still_ground(), mu=0.01, initial=start, settle_s=2.0)
     assert short.status is Status.RECORD_ENDED
-    assert short.outcome.outcome == "moves on"
+    assert short.outcome.outcome == "still moving"
     assert short.outcome.end_s == pytest.approx(3.0, abs=1e-9)
     assert any("still in motion" in text for text in short.warnings)
     rests = solve_respond(Block(0.5, 0.5), still_ground(), mu=0.01, initial=start)

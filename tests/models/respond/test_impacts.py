@@ -38,8 +38,8 @@ def test_struck_corner_slips_below_required_friction():
     """Below b_B h/(k2 + h^2) the struck corner slips, above it sticks."""
     block = Block(0.5, 0.9)
     b, h, k2 = 0.25, 0.45, block.gyration_squared
-    needed = b * h / (k2 + h * h)
-    for mu, slides in ((needed * (1 - 1e-9), True), (needed * (1 + 1e-9), False)):
+    required = b * h / (k2 + h * h)
+    for mu, slides in ((required * (1 - 1e-9), True), (required * (1 + 1e-9), False)):
         start = at_lean(block, 1e-3)
         outcome = solve_respond(block, still_ground(), mu=mu, initial=start).outcome
         assert sequence(outcome)[0] == "rock right"
@@ -47,7 +47,7 @@ def test_struck_corner_slips_below_required_friction():
 
 
 def test_plastic_impact_of_broad_block_ends_in_rest():
-    """Where b1 b2 > k2 + h^2 both corners stay: a plastic impact ends the motion at once."""
+    """With b1 b2 > k2 + h^2 both corners stay in contact: a plastic impact ends the motion at once."""
     block = Block(1.2, 0.5)
     outcome = solve_respond(block, still_ground(), mu=3.0, initial=at_lean(block, 0.05)).outcome
     assert sequence(outcome) == ["rock right", "rest"]
@@ -129,21 +129,21 @@ def test_two_corner_impact_dissipates_without_penetration(omega, rise, speed, wi
     if rise - right * omega > 0.0 and rise + left * omega > 0.0:
         return
     p = respond_params(block, options=RespondOptions(mu=mu)).parameters(0.01)
-    stays, turned, slip, loss = both_corners_impact(omega, rise, speed, p, False)
+    stays, rotated, slip, loss = both_corners_impact(omega, rise, speed, p, False)
     assert loss >= -1e-12
-    speed_after = slip + block.centre * turned
+    speed_after = slip + block.centre * rotated
     if stays == CLOSED_BOTH:
-        assert turned == 0.0
+        assert rotated == 0.0
         rise_after = 0.0
     elif stays == CLOSED_NONE:
         return
     else:
-        rise_after = (right if stays == CLOSED_RIGHT else -left) * turned
-        assert turned >= 0.0 if stays == CLOSED_RIGHT else turned <= 0.0
+        rise_after = (right if stays == CLOSED_RIGHT else -left) * rotated
+        assert rotated >= 0.0 if stays == CLOSED_RIGHT else rotated <= 0.0
         assert stays in (CLOSED_LEFT, CLOSED_RIGHT)
     k2 = block.gyration_squared
     before = rise**2 + speed**2 + k2 * omega**2
-    assert before - (rise_after**2 + speed_after**2 + k2 * turned**2) == pytest.approx(2.0 * loss, abs=1e-9)
+    assert before - (rise_after**2 + speed_after**2 + k2 * rotated**2) == pytest.approx(2.0 * loss, abs=1e-9)
 
 
 def test_given_restitution_scales_angular_velocity():
@@ -198,8 +198,8 @@ def test_contact_denominator_changes_sign_at_painleve_limit():
     rx = 0.15 * np.cos(lean) - 0.6 * np.sin(lean)
     ry = -0.15 * np.sin(lean) - 0.6 * np.cos(lean)
     for mu, positive in ((4.0 / 3.0 - 1e-6, True), (4.0 / 3.0 + 1e-6, False)):
-        least = min((1.0 + rx * (rx + s * mu * ry) / block.gyration_squared).min() for s in (1.0, -1.0))
-        assert (least > 0.0) == positive
+        minimum = min((1.0 + rx * (rx + s * mu * ry) / block.gyration_squared).min() for s in (1.0, -1.0))
+        assert (minimum > 0.0) == positive
 
 
 def test_flat_slip_above_painleve_limit_jams_with_energy_loss():
@@ -242,3 +242,21 @@ def test_infinite_corner_clattering_is_resolved_as_two_corner_impact():
     times = np.array([event.time_s for event in response.events if event.name.startswith("landing")])
     shorter = np.diff(times)[1:] / np.diff(times)[:-1]
     assert (shorter[1:] < 0.1).all()
+
+
+@given(
+    omega=st.floats(-3.0, 3.0),
+    rise=st.floats(-3.0, -0.1),
+    speed=st.floats(-3.0, 3.0),
+    width=st.floats(0.2, 2.0),
+    height=st.floats(0.2, 2.0),
+    mu=st.floats(0.0, 0.8),
+)
+@settings(max_examples=200, deadline=None)
+def test_two_corner_impact_of_mirrored_state_is_mirrored(omega, rise, speed, width, height, mu):
+    """The other corner stays, with the opposite spin and slip."""
+    p = respond_params(Block(width, height), options=RespondOptions(mu=mu)).parameters(0.01)
+    stays, rotated, slip, loss = both_corners_impact(omega, rise, speed, p, False)
+    mirrored = both_corners_impact(-omega, rise, -speed, p, False)
+    assert mirrored[0] == {CLOSED_LEFT: CLOSED_RIGHT, CLOSED_RIGHT: CLOSED_LEFT}.get(stays, stays)
+    assert mirrored[1:] == pytest.approx((-rotated, -slip, loss), abs=1e-12)

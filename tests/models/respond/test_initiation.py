@@ -1,4 +1,4 @@
-"""Which mode begins from rest: Shenton's (1996) criteria in closed form, against the mode in which the solver starts."""
+"""Mode that begins from rest: closed forms of Shenton (1996) against the first mode of the solver."""
 
 import math
 
@@ -26,11 +26,11 @@ def expected(block, push, weight, mu, kinetic):
     b = block.arms[1] if to_left else block.arms[0]
     h, k2 = block.centre, block.gyration_squared
     corner, slip = ("left", "-") if to_left else ("right", "+")
-    needed = ratio
+    required = ratio
     rocking = (ratio * h - b) / (k2 + h * h + b * b)
     demand = (ratio - h * rocking) / (1.0 + b * rocking)
     margin = min(abs(ratio - mu), abs(ratio - b / h), abs(kinetic * h - b))
-    if needed <= mu and ratio <= b / h:
+    if required <= mu and ratio <= b / h:
         return "rest", margin
     if ratio > b / h:
         margin = min(margin, abs(demand - mu))

@@ -27,35 +27,35 @@ def versions(n=40):
 def test_respond_many_rows_equal_single_runs():
     """Verdict, displacements, leans, paths, impacts and times are equal to the last bit."""
     rows = versions()
-    many = respond_many([respond_params(block, RespondOptions(**options)) for block, options in rows], MOTION)
-    assert 0 < many.overturned.sum() < len(rows)
+    batch = respond_many([respond_params(block, RespondOptions(**options)) for block, options in rows], MOTION)
+    assert 0 < batch.overturned.sum() < len(rows)
     for row, (block, options) in enumerate(rows):
         response = solve_respond(block, MOTION, sensitivity=False, **options)
-        one = response.outcome
-        assert many.overturned[row] == one.overturned
-        assert many.settled[row] == one.settled
-        assert many.direction[row] == {"+x": 1, "-x": -1, None: 0}[one.overturned_towards]
+        first = response.outcome
+        assert batch.overturned[row] == first.overturned
+        assert batch.settled[row] == first.settled
+        assert batch.direction[row] == {"+x": 1, "-x": -1, None: 0}[first.overturned_towards]
         for name in ("final_displacement_m", "max_displacement_m", "max_rotation_rad", "slip_path_m", "impacts", "end_s"):
-            assert getattr(many, name)[row] == getattr(one, name), name
-        assert many.time_in_mode_s[row] == pytest.approx(list(one.time_in_mode_s.values()), abs=1e-9)
+            assert getattr(batch, name)[row] == getattr(first, name), name
+        assert batch.time_in_mode_s[row] == pytest.approx(list(first.time_in_mode_s.values()), abs=1e-9)
         flights = [phase.duration_s for phase in response.phases if phase.name == "flight"]
-        assert many.longest_flight_s[row] <= max(flights, default=0.0) + 1e-12
+        assert batch.longest_flight_s[row] <= max(flights, default=0.0) + 1e-12
 
 
 @pytest.mark.parametrize("up", [0.0, 14.0], ids=["level", "beyond 1 g upwards"])
 def test_respond_many_rows_equal_single_runs_at_extreme_parameters(up):
     """Ice and glue, slivers and slabs, no rebound and almost all of it; records that end while they hop, and vertical motion beyond 1 g."""
-    whole = Motion(MOTION.acceleration * np.array([[1.0], [1.0], [up / np.abs(MOTION.vertical).max()]]), MOTION.dt)
-    motion = Motion(whole.acceleration[:, : whole.samples // 2], whole.dt)
+    full = Motion(MOTION.acceleration * np.array([[1.0], [1.0], [up / np.abs(MOTION.vertical).max()]]), MOTION.dt)
+    motion = Motion(full.acceleration[:, : full.samples // 2], full.dt)
     blocks = (Block(0.002, 1.0), Block(0.35, 0.9), Block(3.0, 0.5))
     rows = [(block, {"mu": mu, "restitution": e}) for block in blocks for mu in (0.01, 0.7, 100.0) for e in (0.0, 0.95)]
-    many = respond_many([respond_params(block, RespondOptions(**options)) for block, options in rows], motion, gains=(1.0, 0.0, 1.0))
-    assert 0 < many.overturned.sum() < len(rows)
+    batch = respond_many([respond_params(block, RespondOptions(**options)) for block, options in rows], motion, gains=(1.0, 0.0, 1.0))
+    assert 0 < batch.overturned.sum() < len(rows)
     for row, (block, options) in enumerate(rows):
-        one = solve_respond(block, motion, sensitivity=False, vertical=True, **options).outcome
-        assert many.overturned[row] == one.overturned
+        first = solve_respond(block, motion, sensitivity=False, vertical=True, **options).outcome
+        assert batch.overturned[row] == first.overturned
         for name in ("settled", "final_displacement_m", "max_displacement_m", "max_rotation_rad", "slip_path_m", "impacts", "end_s"):
-            assert getattr(many, name)[row] == getattr(one, name), (name, block.width, options)
+            assert getattr(batch, name)[row] == getattr(first, name), (name, block.width, options)
 
 
 @pytest.mark.parametrize("initial", [None, (0.0, 1.2, 0.0, 0.0, 0.0, 0.1)], ids=["upright", "thrown"])
@@ -65,40 +65,40 @@ def test_parameters_from_arrays_equal_scalar_parameters(initial):
     blocks = [Block(0.35 * a, 0.9 * b, centroid_offset=0.05 * c) for a, b, c in rng.uniform(0.7, 1.3, (n, 3))]
     mu, kinetic, e = rng.uniform(0.8, 1.6, n), rng.uniform(0.2, 0.8, n), rng.uniform(0.0, 0.5, n)
     kinetic[::3] = mu[::3]
-    some = RespondBatchParams(to_block_array(blocks), mu, kinetic, e, np.ones(n), False, 9.81, 0.01)
+    subset = RespondBatchParams(to_block_array(blocks), mu, kinetic, e, np.ones(n), False, 9.81, 0.01)
     numbers = zip(blocks, mu.tolist(), kinetic.tolist(), e.tolist(), strict=True)
-    each = [
+    items = [
         respond_params(block, options=RespondOptions(mu=m, mu_kinetic=k, restitution=r, gravity=9.81, tenon=0.01))
         for block, m, k, r in numbers
     ]
     for still in (False, True):
-        table = some.parameters(0.01, ground_at_rest=still)
-        np.testing.assert_array_equal(table, [setting.parameters(0.01, ground_at_rest=still) for setting in each])
+        table = subset.parameters(0.01, ground_at_rest=still)
+        np.testing.assert_array_equal(table, [setting.parameters(0.01, ground_at_rest=still) for setting in items])
     assert 0.0 < table[:, NEAR_JAM].mean() < 1.0
-    many, alone = (respond_many(given[:12], MOTION, initial=initial) for given in (some, each))
-    for name in vars(many):
-        np.testing.assert_array_equal(getattr(many, name), getattr(alone, name))
+    rows, single = (respond_many(arguments[:12], MOTION, initial=initial) for arguments in (subset, items))
+    for name in vars(rows):
+        np.testing.assert_array_equal(getattr(rows, name), getattr(single, name))
 
 
 def test_invalid_row_raises_message_of_single_run():
     """The first row that is wrong says why."""
     two = to_block_array([Block(0.3, 0.9), Block(0.3, 1.2)])
-    for mu, kinetic, e, why in (
+    for mu, kinetic, e, reason in (
         (-0.1, -0.2, 0.0, "friction coefficient mu"),
         (0.3, 0.4, 0.0, "must not exceed"),
         (0.3, 0.3, 1.0, "restitution"),
     ):
-        with pytest.raises(ParameterError, match=why):
+        with pytest.raises(ParameterError, match=reason):
             RespondBatchParams(two, np.array([0.5, mu]), np.array([0.5, kinetic]), np.array([0.0, e]), np.ones(2), False, 9.81, 0.0)
 
 
 def test_respond_many_is_independent_of_thread_count():
     """One, two or seven threads give the same arrays."""
     settings = [respond_params(block, RespondOptions(**options)) for block, options in versions(15)]
-    one, *others = (respond_many(settings, MOTION, workers=workers) for workers in (1, 2, 7))
-    for other in others:
-        for name in vars(one):
-            np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+    first, *rest = (respond_many(settings, MOTION, workers=workers) for workers in (1, 2, 7))
+    for second in rest:
+        for name in vars(first):
+            np.testing.assert_array_equal(getattr(first, name), getattr(second, name))
 
 
 def test_gains_rotate_and_scale_the_motion():
@@ -108,13 +108,13 @@ def test_gains_rotate_and_scale_the_motion():
     motion = Motion(rows, MOTION.dt)
     angles = rng.uniform(0.0, 2.0 * np.pi, 6)
     setting = respond_params(Block(0.4, 0.9), options=RespondOptions(mu=0.35))
-    many = respond_many([setting] * 6, motion, gains=np.stack([0.8 * np.cos(angles), 0.8 * np.sin(angles), np.full(6, 0.8)], axis=1))
+    batch = respond_many([setting] * 6, motion, gains=np.stack([0.8 * np.cos(angles), 0.8 * np.sin(angles), np.full(6, 0.8)], axis=1))
     for row, angle in enumerate(angles):
-        turned = Motion.from_arrays(0.8 * np.cos(angle) * rows[0] + 0.8 * np.sin(angle) * rows[1], motion.dt, vertical=0.8 * rows[2])
-        one = solve_respond(Block(0.4, 0.9), turned, mu=0.35, sensitivity=False).outcome
-        assert many.overturned[row] == one.overturned
-        assert many.end_s[row] == pytest.approx(one.end_s, abs=1e-6)
-        assert many.final_displacement_m[row] == pytest.approx(one.final_displacement_m, abs=1e-6)
+        rotated = Motion.from_arrays(0.8 * np.cos(angle) * rows[0] + 0.8 * np.sin(angle) * rows[1], motion.dt, vertical=0.8 * rows[2])
+        first = solve_respond(Block(0.4, 0.9), rotated, mu=0.35, sensitivity=False).outcome
+        assert batch.overturned[row] == first.overturned
+        assert batch.end_s[row] == pytest.approx(first.end_s, abs=1e-6)
+        assert batch.final_displacement_m[row] == pytest.approx(first.final_displacement_m, abs=1e-6)
 
 
 def test_respond_many_rejects_empty_input():

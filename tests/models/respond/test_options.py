@@ -1,4 +1,4 @@
-"""What the solver takes and refuses: starts, ends, tenons, further points, two-layer blocks, bad input."""
+"""Valid and invalid options: initial states, end of analysis, tenons, further points, two-layer blocks, bad input."""
 
 import math
 
@@ -18,7 +18,7 @@ BLOCK = Block(0.4, 1.0)
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "message"),
     [
         ({"mu": -0.1}, "friction coefficient mu"),
         ({"mu": math.nan}, "friction coefficient mu"),
@@ -39,9 +39,9 @@ BLOCK = Block(0.4, 1.0)
         ({"mu": 0.3, "further_points": [(0.1, math.nan)]}, "two lengths"),
     ],
 )
-def test_solve_respond_rejects_invalid_numbers(options, said):
+def test_solve_respond_rejects_invalid_numbers(options, message):
     """Each names the quantity, what is expected, and what was found."""
-    with pytest.raises(ParameterError, match=said) as error:
+    with pytest.raises(ParameterError, match=message) as error:
         solve_respond(BLOCK, still_ground(), **options)
     assert "\n" not in str(error.value)
 
@@ -139,21 +139,21 @@ def test_ground_acceleration_is_zero_after_last_sample():
 
 def test_initial_displacement_is_included_in_results():
     """A body put down elsewhere says where it is, in the outcome as in the channel."""
-    here = solve_respond(BLOCK, shaking(1, 6.0), mu=0.3).outcome
-    there = solve_respond(BLOCK, shaking(1, 6.0), mu=0.3, initial=(5.0, 0.5, 0.0, 0.0, 0.0, 0.0)).outcome
-    assert there.final_displacement_m == pytest.approx(5.0 + here.final_displacement_m, abs=1e-12)
-    assert there.max_displacement_m >= 5.0
+    first = solve_respond(BLOCK, shaking(1, 6.0), mu=0.3).outcome
+    second = solve_respond(BLOCK, shaking(1, 6.0), mu=0.3, initial=(5.0, 0.5, 0.0, 0.0, 0.0, 0.0)).outcome
+    assert second.final_displacement_m == pytest.approx(5.0 + first.final_displacement_m, abs=1e-12)
+    assert second.max_displacement_m >= 5.0
 
 
 def test_tenon_prevents_slip_and_allows_rocking():
     """Bare it slides and never rocks; held by tenons it rocks, without a slip."""
     motion = shaking(7, 9.0, vertical=0.2)
     bare = solve_respond(BLOCK, motion, mu=0.18).outcome
-    held = solve_respond(BLOCK, motion, mu=0.18, tenon=0.02).outcome
+    holding = solve_respond(BLOCK, motion, mu=0.18, tenon=0.02).outcome
     assert bare.time_in_mode_s["rock"] == 0.0 < bare.slip_path_m
-    assert held.time_in_mode_s["rock"] > 0.0
-    assert held.tenon_left_s is None
-    assert held.time_in_mode_s["slide"] == held.time_in_mode_s["slide_rock"] == held.slip_path_m == 0.0
+    assert holding.time_in_mode_s["rock"] > 0.0
+    assert holding.tenon_left_s is None
+    assert holding.time_in_mode_s["slide"] == holding.time_in_mode_s["slide_rock"] == holding.slip_path_m == 0.0
 
 
 def test_tenon_disengages_when_lower_corner_rises_by_its_depth():
@@ -161,12 +161,12 @@ def test_tenon_disengages_when_lower_corner_rises_by_its_depth():
     up = math.sqrt(2.0 * G * 0.05)
     start = (0.0, 0.5, 0.0, 1.0, up, 0.0)
     left = solve_respond(BLOCK, still_ground(), mu=0.05, tenon=0.03, initial=start).outcome
-    kept = solve_respond(BLOCK, still_ground(), mu=0.05, tenon=0.06, initial=start).outcome
+    remaining = solve_respond(BLOCK, still_ground(), mu=0.05, tenon=0.06, initial=start).outcome
     assert left.tenon_left_s == pytest.approx((up - math.sqrt(up * up - 2.0 * G * 0.03)) / G, abs=1e-12)
     assert left.time_in_mode_s["slide"] > 0.0
-    assert kept.tenon_left_s is None
-    assert kept.slip_path_m == 0.0
-    assert sequence(kept)[1].startswith("rock")
+    assert remaining.tenon_left_s is None
+    assert remaining.slip_path_m == 0.0
+    assert sequence(remaining)[1].startswith("rock")
 
 
 def test_tenon_of_tilted_block_disengages_at_lower_corner():
@@ -203,7 +203,7 @@ def test_times_of_cropped_record_keep_record_clock():
     """A window of a record keeps its clock."""
     motion = shaking(1, 6.0)
     late = Motion(motion.acceleration, motion.dt, start_s=20.0)
-    early, shifted = (solve_respond(BLOCK, each, mu=0.3) for each in (motion, late))
+    early, shifted = (solve_respond(BLOCK, item, mu=0.3) for item in (motion, late))
     assert shifted.outcome.events[0]["time_s"] == 20.0
     np.testing.assert_allclose(shifted.time, early.time + 20.0)
     assert shifted.outcome.end_s == pytest.approx(early.outcome.end_s + 20.0)

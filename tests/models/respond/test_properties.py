@@ -1,4 +1,4 @@
-"""What must hold for every block and every motion: energy, mirror symmetry, similarity, contact."""
+"""Properties of every block and motion: energy, mirror symmetry, similarity, contact."""
 
 import numpy as np
 import pytest
@@ -9,8 +9,8 @@ from seisblock.bodies.block import Block
 from seisblock.core.errors import SolverError
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import constants, solve_respond
-from seisblock.models.respond.curves import energy
 from seisblock.models.respond.outcome import motion_modes
+from seisblock.models.respond.solve import energy
 from seisblock.records import Motion
 from tests.models.respond.cases import shaking, solve_case
 
@@ -35,9 +35,9 @@ def test_energy_balance_holds_at_every_sample_and_event(block, friction, kappa, 
     _, states, modes = run.table()
     modes = motion_modes(run, modes)
     have = energy(setting.rigid_body, setting.gravity, states, modes) / setting.rigid_body.mass
-    spent = states[:, constants.WORK] - states[:, constants.FRICTION] - states[:, constants.LOSS]
+    duration = states[:, constants.WORK] - states[:, constants.FRICTION] - states[:, constants.LOSS]
     scale = have.max() + np.abs(states[:, constants.WORK]).max()
-    np.testing.assert_allclose(have - have[0], spent, rtol=0.0, atol=1e-9 * scale)
+    np.testing.assert_allclose(have - have[0], duration, rtol=0.0, atol=1e-9 * scale)
     assert (np.diff(states[:, constants.FRICTION]) >= -1e-12 * scale).all()
     assert (np.diff(states[:, constants.LOSS]) >= -1e-12 * scale).all()
     assert (np.diff(states[:, constants.PATH]) >= -1e-15).all()
@@ -70,20 +70,20 @@ def test_mirrored_block_and_motion_give_mirrored_events(block, friction, ratio, 
     """Ground and block mirrored: the same events with left and right, plus and minus exchanged, at the same times but for round-off."""
     motion = shaking(seed, peak, seconds=6.0)
     mirrored = Motion.from_arrays(-motion.horizontal, motion.dt, vertical=motion.vertical)
-    other = Block(block.width, block.height, centroid_offset=-block.centroid_offset, centroid_height=block.centroid_height)
-    assume(other.arms == block.arms[::-1])
+    second = Block(block.width, block.height, centroid_offset=-block.centroid_offset, centroid_height=block.centroid_height)
+    assume(second.arms == block.arms[::-1])
     run = solve_respond(block, motion, rocking_restitution=ratio, sensitivity=False, **friction)
-    mine, clear = run.outcome, until_hops_die(run)
-    theirs = solve_respond(other, mirrored, rocking_restitution=ratio, sensitivity=False, **friction).outcome
+    computed, clear = run.outcome, until_hops_die(run)
+    theirs = solve_respond(second, mirrored, rocking_restitution=ratio, sensitivity=False, **friction).outcome
     exchange = {"left": "right", "right": "left", "+": "-", "-": "+", None: None}
-    expected = [{**event, "corner": exchange[event["corner"]], "slip": exchange[event["slip"]]} for event in mine.events]
+    expected = [{**event, "corner": exchange[event["corner"]], "slip": exchange[event["slip"]]} for event in computed.events]
     # impacts amplify the last digit, and ever smaller hops without bound, so the first events alone are compared
     compared = [event for event in expected[:30] if event["time_s"] <= clear]
     assert compared
     for ours, other_side in zip(compared, theirs.events[: len(compared)], strict=True):
         assert other_side == {**ours, "time_s": pytest.approx(ours["time_s"], abs=1e-8)}
     if len(compared) == len(expected):
-        assert theirs.final_displacement_m == pytest.approx(-mine.final_displacement_m, abs=1e-9)
+        assert theirs.final_displacement_m == pytest.approx(-computed.final_displacement_m, abs=1e-9)
 
 
 @settings(max_examples=25, deadline=None)
@@ -95,12 +95,12 @@ def test_scaled_lengths_and_times_give_similar_response(block, friction, seed, p
     large = Block(4 * block.width, 4 * block.height, centroid_offset=4 * block.centroid_offset, centroid_height=4 * block.centre)
     _, small_run = solve_case(block, motion, **friction)
     _, large_run = solve_case(large, slow, **friction, settle_s=120.0)
-    few = min(len(small_run.record_part.events), len(large_run.record_part.events), 12)
-    for mine, theirs in zip(small_run.record_part.events[:few], large_run.record_part.events[:few], strict=True):
-        assert (mine.source, mine.target) == (theirs.source, theirs.target)
-        assert theirs.time == pytest.approx(2.0 * mine.time, rel=1e-7)
-        assert theirs.after[constants.THETA] == pytest.approx(mine.after[constants.THETA], rel=1e-5, abs=1e-9)
-        assert theirs.after[constants.X] == pytest.approx(4.0 * mine.after[constants.X], rel=1e-5, abs=1e-9)
+    subset = min(len(small_run.record_part.events), len(large_run.record_part.events), 12)
+    for computed, theirs in zip(small_run.record_part.events[:subset], large_run.record_part.events[:subset], strict=True):
+        assert (computed.source, computed.target) == (theirs.source, theirs.target)
+        assert theirs.time == pytest.approx(2.0 * computed.time, rel=1e-7)
+        assert theirs.after[constants.THETA] == pytest.approx(computed.after[constants.THETA], rel=1e-5, abs=1e-9)
+        assert theirs.after[constants.X] == pytest.approx(4.0 * computed.after[constants.X], rel=1e-5, abs=1e-9)
 
 
 @settings(max_examples=40, deadline=None)
@@ -124,7 +124,7 @@ def test_resampling_piecewise_linear_motion_changes_nothing():
     rows = [np.interp(fine_time, np.arange(motion.samples), row) for row in (motion.horizontal, motion.vertical)]
     fine = Motion.from_arrays(rows[0], motion.dt / 10, vertical=rows[1])
     block = Block(0.3, 0.8)
-    coarse, dense = (solve_respond(block, each, mu=0.45, sensitivity=False).outcome for each in (motion, fine))
+    coarse, dense = (solve_respond(block, item, mu=0.45, sensitivity=False).outcome for item in (motion, fine))
     assert len(coarse.events) == len(dense.events) > 50
     times = [[event["time_s"] for event in outcome.events] for outcome in (coarse, dense)]
     np.testing.assert_allclose(times[0], times[1], rtol=0.0, atol=1e-7)

@@ -1,4 +1,4 @@
-"""Where only one thing can happen, the model is that of `slide`, of `rock`, and a stone thrown."""
+"""Limits of the model with a single mode: `slide`, `rock`, and a thrown stone."""
 
 import numpy as np
 import pytest
@@ -17,17 +17,17 @@ from tests.models.respond.cases import SLENDER, sequence, shaking, still_ground
 def test_broad_block_slides_like_solve_slide(seed, kappa):
     """With mu below b/h nothing rocks: displacement, path and times of `slide`, with vertical motion, to round-off."""
     motion = shaking(seed, 5.0)
-    mine = solve_respond(Block(1.0, 0.8), motion, mu=0.2, mu_kinetic=0.2 * kappa)
+    computed = solve_respond(Block(1.0, 0.8), motion, mu=0.2, mu_kinetic=0.2 * kappa)
     slide = solve_slide(sliding_base(0.2, kappa=kappa), motion, vertical=True)
-    assert set(sequence(mine.outcome)) <= {"rest", "slide +", "slide -"}
-    assert mine.outcome.final_displacement_m == pytest.approx(slide.outcome.final_slip_m, abs=1e-13)
-    assert mine.outcome.max_displacement_m == pytest.approx(slide.outcome.max_slip_m, abs=1e-13)
-    assert mine.outcome.slip_path_m == pytest.approx(slide.outcome.path_m, abs=1e-5)
-    during = [event["time_s"] for event in mine.outcome.events[1:] if event["time_s"] <= motion.time[-1]]
+    assert set(sequence(computed.outcome)) <= {"rest", "slide +", "slide -"}
+    assert computed.outcome.final_displacement_m == pytest.approx(slide.outcome.final_slip_m, abs=1e-13)
+    assert computed.outcome.max_displacement_m == pytest.approx(slide.outcome.max_slip_m, abs=1e-13)
+    assert computed.outcome.slip_path_m == pytest.approx(slide.outcome.path_m, abs=1e-5)
+    during = [event["time_s"] for event in computed.outcome.events[1:] if event["time_s"] <= motion.time[-1]]
     np.testing.assert_allclose(during, [event.time_s for event in slide.events], rtol=0.0, atol=1e-12)
-    at = np.searchsorted(mine.time, motion.time)
+    at = np.searchsorted(computed.time, motion.time)
     np.testing.assert_allclose(
-        mine["displacement"][at], slide["displacement"][np.searchsorted(slide.time, motion.time)], rtol=0.0, atol=1e-13
+        computed["displacement"][at], slide["displacement"][np.searchsorted(slide.time, motion.time)], rtol=0.0, atol=1e-13
     )
 
 
@@ -35,15 +35,15 @@ def test_broad_block_slides_like_solve_slide(seed, kappa):
 def test_rough_block_rocks_like_solve_rock(seed):
     """With friction enough and plastic impacts the lean is that of `rock`, whose restitution is the angular momentum's."""
     motion = shaking(seed, 4.0, vertical=0.3)
-    mine = solve_respond(SLENDER, motion, mu=50.0)
+    computed = solve_respond(SLENDER, motion, mu=50.0)
     rock = solve_rock(motion=motion, block=SLENDER, vertical=True)
     assert not rock.outcome.contact_lost
-    assert mine.outcome.overturned == rock.outcome.overturned
-    assert mine.outcome.time_in_mode_s["slide"] == mine.outcome.time_in_mode_s["slide_rock"] == 0.0
+    assert computed.outcome.overturned == rock.outcome.overturned
+    assert computed.outcome.time_in_mode_s["slide"] == computed.outcome.time_in_mode_s["slide_rock"] == 0.0
     if not rock.outcome.overturned:
         theirs = rock["rotation"][np.searchsorted(rock.time, motion.time)]
-        np.testing.assert_allclose(mine["rotation"][np.searchsorted(mine.time, motion.time)], theirs, rtol=0.0, atol=1e-9)
-        assert mine.outcome.max_rotation_rad == pytest.approx(rock.outcome.max_rotation_rad, rel=1e-9)
+        np.testing.assert_allclose(computed["rotation"][np.searchsorted(computed.time, motion.time)], theirs, rtol=0.0, atol=1e-9)
+        assert computed.outcome.max_rotation_rad == pytest.approx(rock.outcome.max_rotation_rad, rel=1e-9)
 
 
 def test_random_motions_include_rocking_without_overturning():
@@ -56,11 +56,11 @@ def test_asymmetric_block_rocks_like_solve_rock():
     """Two different corners: both factors of the angular momentum."""
     block = Block(0.4, 1.0, centroid_offset=0.05, centroid_height=0.6, centroid_inertia=40.0, mass=300.0)
     motion = shaking(3, 5.0, vertical=0.0)
-    mine = solve_respond(block, motion, mu=50.0)
+    computed = solve_respond(block, motion, mu=50.0)
     rock = solve_rock(motion=motion, block=block)
-    assert mine.outcome.impacts > 20
+    assert computed.outcome.impacts > 20
     theirs = rock["rotation"][np.searchsorted(rock.time, motion.time)]
-    np.testing.assert_allclose(mine["rotation"][np.searchsorted(mine.time, motion.time)], theirs, rtol=0.0, atol=1e-10)
+    np.testing.assert_allclose(computed["rotation"][np.searchsorted(computed.time, motion.time)], theirs, rtol=0.0, atol=1e-10)
 
 
 def test_flight_over_still_ground_is_a_parabola():

@@ -80,5 +80,5 @@ def test_energy_balance_holds_with_friction_equal_to_slenderness(digits):
         push *= 1.3 * G * 0.4 / np.abs(push).max()
         outcome = solve_respond(block, Motion.from_arrays(push, 0.01), mu=shift_floats(0.4, digits), sensitivity=False).outcome
         assert outcome.settled
-        lost = outcome.energy_friction_j + outcome.energy_impacts_j
-        assert lost == pytest.approx(outcome.energy_ground_j, rel=1e-9, abs=1e-12)
+        missing = outcome.energy_friction_j + outcome.energy_impacts_j
+        assert missing == pytest.approx(outcome.energy_ground_j, rel=1e-9, abs=1e-12)

@@ -14,10 +14,10 @@ BODIES = "name,width (cm),height,mu,inset\nslender,20,1.0,0.6,\nsquat,80cm,1.2,0
 
 def shaking(seed, samples=1500, peak=4.0):
     """Return a burst of three components, m/s^2: filtered noise under an envelope, of no generator of the program's."""
-    dice = np.random.default_rng(seed)
+    rng = np.random.default_rng(seed)
     time = np.arange(samples) * 0.01
     envelope = (time / 4.0) * np.exp(1.0 - time / 4.0)
-    noise = np.cumsum(dice.normal(size=(3, samples)), axis=1)
+    noise = np.cumsum(rng.normal(size=(3, samples)), axis=1)
     noise -= np.array([np.convolve(row, np.ones(41) / 41, mode="same") for row in noise])
     rows = noise * envelope
     return time, rows * peak / np.abs(rows).max() * np.array([[1.0], [0.8], [0.4]])

@@ -1,5 +1,6 @@
 """``seisblock batch``: it refuses what it should, and no interruption loses or doubles a row."""
 
+import csv
 import os
 import signal
 import subprocess
@@ -26,10 +27,10 @@ def test_batch_refuses_to_overwrite_files(folder):
     answer = run(LINE)
     assert answer.exit_code == 3 and "--force" in answer.stderr and Path("t.csv").read_text() == "mine"
     assert run(LINE + " --force").exit_code == 0
-    whole = Path("t.csv").read_bytes()
-    assert run(LINE + " --resume").exit_code == 0 and Path("t.csv").read_bytes() == whole
-    other = run("batch records/r0.csv --bodies bodies.csv --solver rock --out t.csv --resume")
-    assert other.exit_code == 3 and "other records" in other.stderr and Path("t.csv").read_bytes() == whole
+    full = Path("t.csv").read_bytes()
+    assert run(LINE + " --resume").exit_code == 0 and Path("t.csv").read_bytes() == full
+    second = run("batch records/r0.csv --bodies bodies.csv --solver rock --out t.csv --resume")
+    assert second.exit_code == 3 and "other records" in second.stderr and Path("t.csv").read_bytes() == full
     before = Path("records/r0.csv").read_bytes()
     harmed = run("batch records --bodies bodies.csv --solver rock --out records/r0.csv --force")
     assert harmed.exit_code == 3 and Path("records/r0.csv").read_bytes() == before
@@ -42,7 +43,7 @@ def test_batch_refuses_to_overwrite_files(folder):
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         ("--bodies none.csv", "none.csv"),
         ("--bodies wrong.csv", "unknown column 'colour'"),
@@ -54,14 +55,14 @@ def test_batch_refuses_to_overwrite_files(folder):
         ("--solver jump --mu 0.3 --vertical", "jump has no option --vertical: omit it"),
     ],
 )
-def test_batch_reports_bad_input_in_one_sentence(folder, change, said, monkeypatch):
+def test_batch_reports_bad_input_in_one_sentence(folder, change, message, monkeypatch):
     """And leaves nothing behind."""
     monkeypatch.setattr(cluster, "CONNECT_TIMEOUT_S", 0.5)
     (folder / "wrong.csv").write_text("name,width,height,colour\na,1,2,red\n")
     line = LINE if "--bodies" not in change else LINE.replace("--bodies bodies.csv ", "")
     line = line if "--solver" not in change else line.replace("--solver rock ", "")
     answer = run(f"{line} {change}")
-    assert answer.exit_code == 3 and said in answer.stderr
+    assert answer.exit_code == 3 and message in answer.stderr
     assert [line[:10] for line in answer.stderr.splitlines() if "does not use" not in line] == ["seisblock:"]
     assert not Path("t.csv").exists() and not Path("t.csv.journal").exists()
 
@@ -75,10 +76,10 @@ def test_batch_without_any_answer_writes_no_table(folder):
         assert "gone.csv: no such file" in answer.stdout and "wrote" not in answer.stderr
         assert not list(folder.glob(f"t.{suffix}*"))
         assert run(f"batch records/r0.csv {line}").exit_code == 0
-        whole = Path(f"t.{suffix}").read_bytes()
+        full = Path(f"t.{suffix}").read_bytes()
         refused = run(f"batch gone.csv {line} --force")
         assert refused.exit_code == 3 and f"t.{suffix} is unchanged" in refused.stderr
-        assert Path(f"t.{suffix}").read_bytes() == whole and len(list(folder.glob(f"t.{suffix}*"))) == 1
+        assert Path(f"t.{suffix}").read_bytes() == full and len(list(folder.glob(f"t.{suffix}*"))) == 1
 
 
 def test_batch_without_table_prints_every_reason(folder):
@@ -88,37 +89,42 @@ def test_batch_without_table_prints_every_reason(folder):
 
 
 def test_batch_prints_counts_per_body(folder):
-    """Counts by body, beside the table."""
-    found = document("batch records gone.csv --bodies bodies.csv --solver slide --out t.csv")
-    assert (found["records_count"], found["unread_count"]) == (5, 1)
-    assert [each["answers_count"] for each in found["results"]] == [8, 8, 8]
-    first = run("batch records --bodies bodies.csv --solver slide --out u.csv --quiet").stdout.splitlines()[0]
-    assert first.startswith("slid in ") and "24 cases" in first
+    """Counts by body, beside the table; an object slides if it does under any component of a record."""
+    content = document("batch records gone.csv --bodies bodies.csv --solver slide --out t.csv")
+    assert (content["records_count"], content["unread_count"]) == (5, 1)
+    assert [result["answers_count"] for result in content["results"]] == [8, 8, 8]
+    answer = " ".join(run("batch records --bodies bodies.csv --solver slide --out u.csv --quiet").stdout.split())
+    with Path("u.csv").open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    slid = [(row["record"], row["body"]) for row in rows if row["slips"] == "True"]
+    objects = {(row["record"], row["body"]) for row in rows}
+    assert (len(rows), len(objects)) == (24, 12) and 0 < len(set(slid)) < len(slid)
+    assert answer.startswith(f"slid: {len(set(slid))} of 12 objects under at least one component; slid in {len(slid)} of 24 cases (")
 
 
 def test_batch_parquet_equals_csv(folder):
     """Cell by cell, with the types kept."""
     pandas = pytest.importorskip("pandas")
     assert run(LINE).exit_code == 0 and run(LINE.replace("t.csv", "t.parquet")).exit_code == 0
-    text, kept = pandas.read_csv("t.csv", float_precision="round_trip"), pandas.read_parquet("t.parquet")
-    assert list(text.columns) == list(kept.columns)
-    assert kept["overturned"].tolist() == text["overturned"].tolist()
-    assert kept["max_rotation_rad"].tolist() == text["max_rotation_rad"].tolist()
+    text, remaining = pandas.read_csv("t.csv", float_precision="round_trip"), pandas.read_parquet("t.parquet")
+    assert list(text.columns) == list(remaining.columns)
+    assert remaining["overturned"].tolist() == text["overturned"].tolist()
+    assert remaining["max_rotation_rad"].tolist() == text["max_rotation_rad"].tolist()
     assert run(LINE.replace("t.csv", "t.parquet") + " --resume").exit_code == 0
 
 
 def test_batch_resume_rejects_other_options(folder):
     """Going on with it under another factor, body, component or number of bodies is refused; it said that nothing was left to do."""
     assert run(LINE).exit_code == 0
-    whole = Path("t.csv").read_bytes()
+    full = Path("t.csv").read_bytes()
     text = Path("bodies.csv").read_text(encoding="utf-8")
     (folder / "wider.csv").write_text(text.replace("slender,20", "slender,21"), encoding="utf-8")
     (folder / "more.csv").write_text(text + "fourth,30,1.0,0.5,\n", encoding="utf-8")
     for change in ("--scale 1.01", "--component NS", "--gravity 9.7", "--bodies wider.csv", "--bodies more.csv"):
         line = LINE if "--bodies" not in change else LINE.replace("--bodies bodies.csv ", "")
-        other = run(f"{line} {change} --resume")
-        assert other.exit_code == 3 and "options" in other.stderr, change
-        assert Path("t.csv").read_bytes() == whole
+        second = run(f"{line} {change} --resume")
+        assert second.exit_code == 3 and "options" in second.stderr, change
+        assert Path("t.csv").read_bytes() == full
 
 
 def test_batch_of_one_station_is_complete(folder):
@@ -140,18 +146,18 @@ def test_batch_locks_its_table(folder):
     journal = folder / "t.csv.journal"
     with lock_checkpoint(journal):
         Checkpoint.begin(journal, {"of": "another run"})
-        held = journal.read_bytes()
+        holding = journal.read_bytes()
         for how in ("--resume", "--force"):
             answer = run(f"{LINE} {how}")
             assert answer.exit_code == 3 and "in use by another run" in answer.stderr, how
-        assert journal.read_bytes() == held and not Path("t.csv").exists()
+        assert journal.read_bytes() == holding and not Path("t.csv").exists()
     assert run(LINE + " --force").exit_code == 0
 
 
-def _start(*more):
+def _start(*extra):
     """Return a batch that runs in a process of its own."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    line = [sys.executable, "-m", "seisblock", *LINE.split(), "--workers", "1", *more]
+    line = [sys.executable, "-m", "seisblock", *LINE.split(), "--workers", "1", *extra]
     return subprocess.Popen(line, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
@@ -167,24 +173,24 @@ def _until_lines(path, count, process):
 
 def _journal_of(folder):
     """Return a journal as an interruption left it, and the table that it becomes."""
-    kept = {}
+    remaining = {}
 
     def leave(self):
-        kept["journal"] = self.path.read_bytes()
+        remaining["journal"] = self.path.read_bytes()
         self.path.unlink()
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("seisblock.core.io.checkpoint.Checkpoint.remove", leave)
         assert run(LINE).exit_code == 0
-    whole = Path("t.csv").read_bytes()
+    full = Path("t.csv").read_bytes()
     Path("t.csv").unlink()
-    return kept["journal"], whole
+    return remaining["journal"], full
 
 
-def _flip_byte(lines, dice):
+def _flip_byte(lines, rng):
     """Change a byte of a line that holds a record."""
-    place = int(dice.integers(len(lines[2]) - 1))
-    lines[2] = lines[2][:place] + bytes([lines[2][place] ^ 1 << int(dice.integers(8))]) + lines[2][place + 1 :]
+    place = int(rng.integers(len(lines[2]) - 1))
+    lines[2] = lines[2][:place] + bytes([lines[2][place] ^ 1 << int(rng.integers(8))]) + lines[2][place + 1 :]
 
 
 DAMAGES = {
@@ -193,7 +199,7 @@ DAMAGES = {
     "a cut end": lambda lines, dice: lines.append(lines.pop()[: int(dice.integers(1, 200))]),
     "a line twice": lambda lines, dice: lines.insert(1, lines[2]),
     "lines in another order": lambda lines, dice: lines.__setitem__(slice(1, None), lines[:0:-1]),
-    "a lost line end": lambda lines, dice: lines.__setitem__(1, lines[1].rstrip(b"\n")),
+    "a lost line end": lambda lines, rng: lines.__setitem__(1, lines[1].rstrip(b"\n")),
     "a record of nobody": lambda lines, dice: lines.insert(1, b'{"rows": 1}\n'),
     "nothing but its purpose": lambda lines, dice: lines.__delitem__(slice(1, None)),
 }
@@ -201,15 +207,17 @@ DAMAGES = {
 
 def test_batch_resume_ignores_damaged_checkpoint_lines(folder):
     """Whatever became of its lines, the table is the same bit by bit; a changed digit is never believed."""
-    journal, whole = _journal_of(folder)
-    for seed, (what, damage) in enumerate([*DAMAGES.items(), *[("a flipped bit", _flip_byte)] * 8]):
+    journal, full = _journal_of(folder)
+    for seed, (quantity, damage) in enumerate([*DAMAGES.items(), *[("a flipped bit", _flip_byte)] * 8]):
         lines = journal.splitlines(keepends=True)
         damage(lines, np.random.default_rng(seed))
         Path("t.csv.journal").write_bytes(b"".join(lines))
         gone_on = run(LINE + " --resume")
-        assert gone_on.exit_code == 0, (what, gone_on.stderr)
-        assert Path("t.csv").read_bytes() == whole, what
-        assert ("damaged" in gone_on.stderr) == (what in ("a flipped bit", "random bytes", "a lost line end", "a record of nobody")), what
+        assert gone_on.exit_code == 0, (quantity, gone_on.stderr)
+        assert Path("t.csv").read_bytes() == full, quantity
+        assert ("damaged" in gone_on.stderr) == (quantity in ("a flipped bit", "random bytes", "a lost line end", "a record of nobody")), (
+            quantity
+        )
         Path("t.csv").unlink()
 
 
@@ -218,7 +226,7 @@ def test_batch_resume_rejects_unidentified_checkpoint(folder, first):
     """And left alone: --force begins anew."""
     Path("t.csv.journal").write_bytes(first)
     answer = run(LINE + " --resume")
-    assert answer.exit_code == 3 and "the first line is damaged" in answer.stderr
+    assert answer.exit_code == 3 and "the first line is no header" in answer.stderr
     assert Path("t.csv.journal").read_bytes() == first and not Path("t.csv").exists()
 
 
@@ -237,8 +245,8 @@ def test_batch_resume_after_kill_neither_loses_nor_repeats_records(folder, how):
     assert run(LINE).exit_code == 3  # neither begun anew nor gone on with unless it is said
     with journal.open("ab") as stream:
         stream.write(b'{"path": "records/r20.csv", "stamp": "1@2", "ro')
-    other = run(LINE.replace("rock", "slide") + " --resume")
-    assert other.exit_code == 3 and "belongs to a run with other bodies" in other.stderr
+    second = run(LINE.replace("rock", "slide") + " --resume")
+    assert second.exit_code == 3 and "belongs to a run with other bodies" in second.stderr
     finished = journal.read_bytes().count(b"\n") - 1
     gone_on = run(LINE + " --resume")
     assert gone_on.exit_code == 0 and f"{finished} of 24 records are finished" in gone_on.stderr
@@ -264,8 +272,8 @@ def test_batch_memory_is_independent_of_record_count(folder):
     for number, name in enumerate(names):
         write_record(folder / name, number, samples=4000)
     peak(2)
-    few, many = peak(10), peak(40)
-    assert many - few < 30 * 4000 * 3 * 8 / 10  # a tenth of the samples that thirty records more hold
+    subset, rows = peak(10), peak(40)
+    assert rows - subset < 30 * 4000 * 3 * 8 / 10  # a tenth of the samples that thirty records more hold
 
 
 @pytest.mark.parametrize("name", ["t.csv", "t.csv.journal"])

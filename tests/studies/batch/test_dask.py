@@ -20,8 +20,8 @@ distributed = pytest.importorskip("distributed")
 @pytest.fixture(scope="module")
 def client():
     """Return a client of two processes of this machine."""
-    with cluster.connect("local:2") as found:
-        yield found
+    with cluster.connect("local:2") as result:
+        yield result
 
 
 @pytest.fixture
@@ -54,23 +54,23 @@ BODIES = {f"b{n}": seisblock.Block(0.15 + 0.01 * n, 0.9) for n in range(6)}
 def test_batch_on_dask_equals_threads(client, records):
     """Bit by bit as on threads, a record that cannot be read included."""
     names = [*records, "gone.csv"]
-    alone = seisblock.run_batch(names, BODIES, "respond", mu=0.5, runs=2)
+    single = seisblock.run_batch(names, BODIES, "respond", mu=0.5, runs=2)
     together = seisblock.run_batch(names, BODIES, "respond", mu=0.5, runs=2, client=client)
-    assert len(alone) == 12 * 2 * 6 + 1
-    assert list(together.cells()) == list(alone.cells())
+    assert len(single) == 12 * 2 * 6 + 1
+    assert list(together.cells()) == list(single.cells())
 
 
 def test_dask_result_is_one_frame(client, monkeypatch):
     """Two hundred rows of a record were two hundred frames to Dask, and before each record the scheduler was asked who works for it."""
-    futures, asked = [], []
+    futures, calls = [], []
     submit, nthreads = client.submit, client.nthreads
-    monkeypatch.setattr(client, "submit", lambda *given, **how: futures.append(submit(*given, **how)) or futures[-1])
-    monkeypatch.setattr(client, "nthreads", lambda: asked.append(True) or nthreads())
+    monkeypatch.setattr(client, "submit", lambda *arguments, **how: futures.append(submit(*arguments, **how)) or futures[-1])
+    monkeypatch.setattr(client, "nthreads", lambda: calls.append(True) or nthreads())
     monkeypatch.setattr(cluster, "POLL_INTERVAL_S", 3600.0)
     tasks = [[{"body": f"b{row}", "impacts": row}] * 3 for row in range(12)]
     assert list(cluster.map_cluster(client, list, tasks, on_lost=None)) == tasks
     assert {future.type for future in futures} == {bytes}
-    assert len(asked) == 1
+    assert len(calls) == 1
 
 
 @pytest.mark.slow
@@ -86,27 +86,27 @@ def test_batch_survives_death_of_worker(client, records):
     victim = next(iter(client.run(os.getpid).values()))
     plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, read_options=run.ReadOptions())
     read = [seisblock.read(name) for name in records]
-    found = []
+    collected = []
     for rows in run.iter_record_rows(iter(read), plan, total=12, client=client):
-        if not found:
+        if not collected:
             os.kill(victim, signal.SIGKILL)
-        found += rows
-    assert found == list(seisblock.run_batch(read, BODIES, "respond", mu=0.5).rows)
+        collected += rows
+    assert collected == list(seisblock.run_batch(read, BODIES, "respond", mu=0.5).rows)
     assert victim not in client.run(os.getpid).values()
 
 
 @pytest.mark.slow
 def test_record_that_kills_workers_becomes_failed_row(client):
     """It does not end the batch, and those that waited in the worker that it took along have their answers."""
-    lost = []
+    missing = []
 
     def work(task):
         if task == "deadly":
             os.kill(os.getpid(), signal.SIGKILL)
         return task
 
-    def reason(task, why):
-        lost.append(why)
+    def reason(task, cause):
+        missing.append(cause)
         return f"lost {task}"
 
     def forgive(times, dask_scheduler):
@@ -119,18 +119,18 @@ def test_record_that_kills_workers_becomes_failed_row(client):
     finally:
         client.run_on_scheduler(forgive, usual)
     assert answers == ["a", "lost deadly", "b", "c", "d", "lost deadly", "e", "f"]
-    assert len(lost) == 2
+    assert len(missing) == 2
 
 
 def test_lost_scheduler_is_not_recorded_as_record_failure(records):
     """One sentence, and the records under way have no rows: they stood in the table as records of which every worker had died."""
-    found, read = [], [seisblock.read(name) for name in records]
+    result, read = [], [seisblock.read(name) for name in records]
     plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, read_options=run.ReadOptions())
     local = distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60)
     with distributed.Client(local, timeout=1) as client, pytest.raises(ParameterError, match="stopped responding"):
         for rows in run.iter_record_rows(iter(read), plan, total=12, client=client):
-            found += rows
+            result += rows
             local.sync(local.scheduler.close)
     with suppress(TimeoutError):  # its scheduler is closed already
         local.close(timeout=1)
-    assert found and not [row for row in found if row.get("failure")]
+    assert result and not [row for row in result if row.get("failure")]

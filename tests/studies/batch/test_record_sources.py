@@ -1,4 +1,4 @@
-"""Which records a batch is of: what names stand for, each recording once, and nothing that is lost in silence."""
+"""Records of a batch: names and patterns, each recording once, none lost silently."""
 
 import errno
 import gzip
@@ -25,19 +25,19 @@ from tests.studies.batch.conftest import run, write_record
 KNET = [sample_directory() / f"synthetic_knet.{code}" for code in ("EW", "NS", "UD")]
 
 
-def record_sources(*names, **said):
+def record_sources(*names, **message):
     """Return what some names stand for."""
-    return list(iter_records([str(name) for name in names], ReadOptions(**said)))
+    return list(iter_records([str(name) for name in names], ReadOptions(**message)))
 
 
 def test_sources_list_each_recording_once(folder):
     """Each recording once, in the order in which it is first named, by whatever name."""
     (folder / "list.txt").write_text("# the two\nr3.csv\n\nr0.csv\n")
     (folder / "records" / "near.txt").write_text("r2.csv\n")
-    names = [each.name for each in record_sources("records/r1.csv", "records/r[12].csv", "records", "@records/near.txt")]
+    names = [item.name for item in record_sources("records/r1.csv", "records/r[12].csv", "records", "@records/near.txt")]
     assert names == ["r1.csv", "r2.csv", "r0.csv", "r3.csv"]
     os.link("records/r0.csv", "other.csv")
-    assert [each.path for each in record_sources("records/r0.csv", Path("records").resolve() / "r0.csv", "other.csv")] == [
+    assert [item.path for item in record_sources("records/r0.csv", Path("records").resolve() / "r0.csv", "other.csv")] == [
         "records/r0.csv",
         "other.csv",
     ]
@@ -59,7 +59,7 @@ def test_folder_skips_files_that_are_not_records(folder):
     for name in ("records/photo.png", "records/notes.md", "records/.hidden.csv", "records/empty.csv"):
         (folder / name).write_bytes(b"" if "empty" in name else b"time,NS (gal)\n0,1\n0.01,2\n")
     (folder / "records" / "noise.bin").write_bytes(bytes(range(256)) * 8)
-    assert [each.name for each in record_sources("records")] == [f"r{n}.csv" for n in range(4)]
+    assert [item.name for item in record_sources("records")] == [f"r{n}.csv" for n in range(4)]
     (folder / "nothing").mkdir()
     (folder / "nothing" / "photo.png").write_bytes(b"x")
     with pytest.raises(RecordNotFoundError, match=r"no record found in this folder \(1 other files\)"):
@@ -71,14 +71,14 @@ def test_component_files_of_station_form_one_record(folder):
     for path in KNET:
         (folder / path.name).write_bytes(path.read_bytes())
         (folder / path.name.replace("synthetic", "other")).write_bytes(path.read_bytes())
-    both = record_sources(*[each.name for each in KNET], "other_knet.EW", "other_knet.NS")
-    assert [each.name for each in both] == ["synthetic_knet.EW", "other_knet.EW"]
-    assert [read_source(each, ReadOptions()).codes for each in both] == [("NS", "EW", "UD"), ("NS", "EW")]
-    (alone,) = record_sources("synthetic_knet.NS")
+    pair = record_sources(*[item.name for item in KNET], "other_knet.EW", "other_knet.NS")
+    assert [item.name for item in pair] == ["synthetic_knet.EW", "other_knet.EW"]
+    assert [read_source(item, ReadOptions()).codes for item in pair] == [("NS", "EW", "UD"), ("NS", "EW")]
+    (single,) = record_sources("synthetic_knet.NS")
     np.testing.assert_array_equal(
-        read_source(alone, ReadOptions()).component("NS").acceleration, read("synthetic_knet.NS").component("NS").acceleration
+        read_source(single, ReadOptions()).component("NS").acceleration, read("synthetic_knet.NS").component("NS").acceleration
     )
-    assert read_source(alone, ReadOptions()).codes == ("NS", "EW", "UD")
+    assert read_source(single, ReadOptions()).codes == ("NS", "EW", "UD")
 
 
 def pack(path, members):
@@ -107,9 +107,9 @@ def test_each_station_of_bundle_is_a_record(folder, suffix, order):
     ]
     members = [*members, ("map.png", b"not a record"), ("CCC0031604160125.EW", KNET[0].read_bytes().replace(b"SYN001", b"CCC003"))]
     if order == "by component":
-        members.sort(key=lambda each: each[0].rsplit(".", 1)[-1])
+        members.sort(key=lambda item: item[0].rsplit(".", 1)[-1])
     bundle = pack(folder / f"event{suffix}", members)
-    records = {each.name[:6]: read_source(each, ReadOptions()) for each in record_sources(bundle)}
+    records = {entry.name[:6]: read_source(entry, ReadOptions()) for entry in record_sources(bundle)}
     assert {name: (record.station, record.codes) for name, record in records.items()} == {
         "AAA001": ("AAA001", ("NS", "EW", "UD")),
         "BBB002": ("BBB002", ("NS", "EW", "UD")),
@@ -151,15 +151,15 @@ def test_borehole_sensor_is_selectable(folder):
     for path in KNET:
         for sensor in "12":
             (folder / f"SYNH011604160125{path.suffix}{sensor}").write_bytes(path.read_bytes().replace(b"SYN001", b"SYNH01"))
-    (station,) = record_sources(*sorted(str(each.name) for each in folder.glob("SYNH01*")))
+    (station,) = record_sources(*sorted(str(item.name) for item in folder.glob("SYNH01*")))
     assert len(station.files) == 6
 
 
 def members_of_stations(count, *, by_component):
     """Return members of so many stations of about 100 kB each, of one component after the other where asked for."""
     parts = [(path.suffix, path.read_bytes()) for path in KNET]
-    every = [(f"S{n:05d}1604160125{suffix}", data) for n in range(count) for suffix, data in parts]
-    return sorted(every, key=lambda each: each[0][-2:]) if by_component else every
+    all_cases = [(f"S{n:05d}1604160125{suffix}", data) for n in range(count) for suffix, data in parts]
+    return sorted(all_cases, key=lambda item: item[0][-2:]) if by_component else all_cases
 
 
 @pytest.mark.parametrize("suffix", [".zip", ".tar.gz"])
@@ -174,7 +174,7 @@ def test_bundle_memory_is_independent_of_station_count(folder, monkeypatch, suff
         bundle = pack(folder / f"{count}{suffix}", members_of_stations(count, by_component=by_component))
         tracemalloc.start()
         try:
-            assert sum(len(each.blobs) == 3 for each in iter_records([str(bundle)], ReadOptions())) == count
+            assert sum(len(item.blobs) == 3 for item in iter_records([str(bundle)], ReadOptions())) == count
             peaks.append(tracemalloc.get_traced_memory()[1])
         finally:
             tracemalloc.stop()
@@ -182,7 +182,7 @@ def test_bundle_memory_is_independent_of_station_count(folder, monkeypatch, suff
 
 
 def test_full_temporary_folder_is_reported(folder, monkeypatch):
-    """What was whole before is answered."""
+    """Sets complete before the folder was full are computed."""
     bundle = pack(folder / "event.zip", members_of_stations(2, by_component=False))
 
     class Full(io.BytesIO):
@@ -200,14 +200,16 @@ def test_full_temporary_folder_is_reported(folder, monkeypatch):
 def test_truncated_bundle_keeps_earlier_records(folder):
     """An archive is unpacked as its members are taken; a spoilt header is damage, not its end, and the checksum at its end is looked at."""
     bundle = pack(folder / "event.tar.gz", members_of_stations(4, by_component=False))
-    whole = bundle.read_bytes()
-    plain = gzip.decompress(whole)
+    full = bundle.read_bytes()
+    plain = gzip.decompress(full)
     header = plain.find(b"S00003")
     spoilt = plain[: header + 148] + b"999999" + plain[header + 154 :]
-    lie = whole[:-8] + bytes(4) + whole[-4:]
-    for data, good in ((whole[: len(whole) * 2 // 3], 2), (gzip.compress(spoilt, 1), 3), (spoilt, 3), (lie, 4)):
+    lie = full[:-8] + bytes(4) + full[-4:]
+    for data, good in ((full[: len(full) * 2 // 3], 2), (gzip.compress(spoilt, 1), 3), (spoilt, 3), (lie, 4)):
         bundle.write_bytes(data)
-        *kept, failed = [each for each in record_sources(bundle) if each.failure or len(each.blobs) == 3]
-        assert [read_source(each, ReadOptions()).codes for each in kept] == [("NS", "EW", "UD")] * len(kept) and len(kept) >= good
+        *remaining, failed = [item for item in record_sources(bundle) if item.failure or len(item.blobs) == 3]
+        assert [read_source(item, ReadOptions()).codes for item in remaining] == [("NS", "EW", "UD")] * len(remaining) and len(
+            remaining
+        ) >= good
         with pytest.raises(RecordFormatError, match=r"event.tar.gz: archive damaged or encrypted"):
             read_source(failed, ReadOptions())

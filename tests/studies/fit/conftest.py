@@ -23,15 +23,15 @@ def pulse(peak, frequency, dt=0.01):
 
 def shaken(count, seed, block=TRUTH, scatter=0.05):
     """Return what versions of a block do under so many pulses, each its own record."""
-    dice = np.random.default_rng(seed)
-    seen = []
+    rng = np.random.default_rng(seed)
+    collected = []
     for k in range(count):
-        motion = pulse(float(np.exp(dice.uniform(np.log(2.0), np.log(12.0)))), float(np.exp(dice.uniform(np.log(0.5), np.log(4.0)))))
-        size, slenderness, bounce, amplitude = 1.0 + scatter * dice.uniform(-1.0, 1.0, 4)
+        motion = pulse(float(np.exp(rng.uniform(np.log(2.0), np.log(12.0)))), float(np.exp(rng.uniform(np.log(0.5), np.log(4.0)))))
+        size, slenderness, bounce, amplitude = 1.0 + scatter * rng.uniform(-1.0, 1.0, 4)
         version = from_slenderness(np.arctan(np.tan(block.slenderness) * slenderness), block.frequency_parameter() / np.sqrt(size))
         verdict = rock_verdict(version, motion, scale=amplitude, options=RockOptions(restitution=min(version.restitution * bounce, 1.0)))
-        seen.append(Observation(motion, verdict.overturned, record=f"pulse {k}"))
-    return seen
+        collected.append(Observation(motion, verdict.overturned, record=f"pulse {k}"))
+    return collected
 
 
 @pytest.fixture(scope="session")

@@ -17,25 +17,25 @@ PULSES = 10
 
 def truth_in_interval(number):
     """Return whether the intervals of alpha, scatter and lapses, and the half of alpha's, hold the truth of one experiment."""
-    dice = np.random.default_rng([5, number])
+    rng = np.random.default_rng([5, number])
     family = BlockFamily(make_priors(["alpha"], BOUNDS, scatter=None, block=TRUTH), TRUTH, None, 0.0, 0.0, False, 9.80665)
-    place, lapse = dice.random((1, 2)), dice.choice(make_lapse_rate(None).values)
-    shaking = [Observation(pulse(p, f), True) for p, f in zip(dice.uniform(1.0, 12.0, PULSES), dice.uniform(0.5, 3.0, PULSES), strict=True)]
+    place, lapse = rng.random((1, 2)), rng.choice(make_lapse_rate(None).values)
+    shaking = [Observation(pulse(p, f), True) for p, f in zip(rng.uniform(1.0, 12.0, PULSES), rng.uniform(0.5, 3.0, PULSES), strict=True)]
     falls = outcome_shares(make_experiment(shaking), family, place, np.ones(PULSES, dtype=int), (9, number))[:, 0] > 0
-    fell = np.where(dice.random(PULSES) < lapse, dice.random(PULSES) < 0.5, falls)
-    seen = [Observation(each.motion, bool(happened)) for each, happened in zip(shaking, fell, strict=True)]
+    fell = np.where(rng.random(PULSES) < lapse, rng.random(PULSES) < 0.5, falls)
+    observations = [Observation(item.motion, bool(happened)) for item, happened in zip(shaking, fell, strict=True)]
     truth = {name: float(value[0]) for name, value in family.values(place).items()} | {"lapse": float(lapse)}
-    found = fit_block(seen, free=["alpha"], bounds=BOUNDS, block=TRUTH, runs=4, folds=2, seed=number)
-    inside = [found[name].interval[0] <= value <= found[name].interval[1] for name, value in truth.items()]
-    middle = np.quantile(found.draws["alpha"], [0.25, 0.75])
+    fit = fit_block(observations, free=["alpha"], bounds=BOUNDS, block=TRUTH, runs=4, folds=2, seed=number)
+    inside = [fit[name].interval[0] <= value <= fit[name].interval[1] for name, value in truth.items()]
+    middle = np.quantile(fit.draws["alpha"], [0.25, 0.75])
     return [*inside, middle[0] <= truth["alpha"] <= middle[1]]
 
 
 def test_fit_intervals_contain_truth_in_six_experiments():
     """Six experiments, three parameters each: not more misses than one in a hundred such tests has."""
-    found = np.array([truth_in_interval(number) for number in range(6)])
-    assert found[:, :3].sum() >= 13
-    assert 1 <= found[:, 3].sum() <= 5
+    values = np.array([truth_in_interval(number) for number in range(6)])
+    assert values[:, :3].sum() >= 13
+    assert 1 <= values[:, 3].sum() <= 5
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""What a fit says of a block that is known, and of outcomes that say little."""
+"""Fits of a known block, and of outcomes with little information."""
 
 from dataclasses import replace
 
@@ -7,6 +7,7 @@ import pytest
 
 from seisblock import Block
 from seisblock.bodies import from_slenderness
+from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.errors import KindError, ParameterError
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
@@ -14,9 +15,9 @@ from seisblock.studies import Observation, fit_block
 from seisblock.studies.fit.block_family import BlockFamily
 from seisblock.studies.fit.cross_validation import calibration, score_predictions
 from seisblock.studies.fit.dataset import assign_folds, make_experiment, trim_zeros
+from seisblock.studies.fit.importance_sampling import make_proposal
 from seisblock.studies.fit.likelihood import log_likelihood, make_lapse_rate
 from seisblock.studies.fit.priors import DEFAULT_PRIORS, make_priors
-from seisblock.studies.fit.proposal_distribution import make_proposal
 from seisblock.studies.fit.simulate import SHARE_DENOMINATOR, outcome_shares
 from tests.studies.fit.conftest import KNOWN, TRUTH, pulse, shaken
 
@@ -29,110 +30,110 @@ def family(*free, bounds=None, block=None, scatter=0.0, **how):
 
 def test_fit_interval_contains_true_slenderness(slender):
     """Alpha to a few per cent from forty outcomes, most of which are foretold without their record."""
-    found = slender["alpha"]
-    assert found.interval[0] < TRUTH.slenderness < found.interval[1]
-    assert found.narrowed < 0.08 and found.identified
+    result = slender["alpha"]
+    assert result.interval[0] < TRUTH.slenderness < result.interval[1]
+    assert result.narrowed < 0.08 and result.identified
     assert slender.held_out.accuracy > 0.85 and slender.held_out.brier < 0.1
     assert slender.held_out.rate_brier > 2 * slender.held_out.brier
-    assert slender.block.slenderness == pytest.approx(found.median, rel=1e-9)
+    assert slender.block.slenderness == pytest.approx(result.median, rel=1e-9)
     assert slender.block.frequency_parameter() == pytest.approx(4.0)
 
 
 @pytest.mark.slow
 def test_fit_of_four_parameters_contains_truth():
     """Slenderness, size, restitution and scatter, from sixty outcomes: each in its interval of 98 %."""
-    found = fit_block(shaken(60, 11), runs=8, level=0.98)
+    observations = fit_block(shaken(60, 11), runs=8, level=0.98)
     truth = {"alpha": 0.25, "p": 4.0, "restitution": TRUTH.restitution, "scatter": 0.05}
-    assert [name for name, value in truth.items() if not found[name].interval[0] <= value <= found[name].interval[1]] == []
-    assert [axis.name for axis in found.axes] == list(truth)
-    assert found.effective_blocks > 200 and found.held_out.effective_blocks > 20
-    assert {name: draws.shape for name, draws in found.draws.items()} == dict.fromkeys(truth, (2000,))
+    assert [name for name, value in truth.items() if not observations[name].interval[0] <= value <= observations[name].interval[1]] == []
+    assert [axis.name for axis in observations.axes] == list(truth)
+    assert observations.effective_blocks > 200 and observations.held_out.effective_blocks > 20
+    assert {name: draws.shape for name, draws in observations.draws.items()} == dict.fromkeys(truth, (2000,))
 
 
 def test_fit_recovers_edge_wear():
     """A drawing that is too wide by a third: the inset that makes it as slender as what fell (scans gave 1.4 to 2.5 times the angle)."""
     drawing = Block(TRUTH.width / (1 - 2 * 0.15), TRUTH.height)
-    seen = shaken(40, 5)
-    found = fit_block(seen, free=["inset"], **{**KNOWN, "block": drawing}, restitution=TRUTH.restitution)
-    low, high = found["inset"].interval
+    observations = shaken(40, 5)
+    fit = fit_block(observations, free=["inset"], **{**KNOWN, "block": drawing}, restitution=TRUTH.restitution)
+    low, high = fit["inset"].interval
     assert low < 0.15 < high and high - low < 0.08
-    low, high = found["turning_alpha"].interval
+    low, high = fit["turning_alpha"].interval
     assert low < 0.25 < high
-    assert found.block.width == pytest.approx(drawing.width)
-    assert found.block.inset / drawing.width == pytest.approx(found["inset"].median, abs=1e-3)
+    assert fit.block.width == pytest.approx(drawing.width)
+    assert fit.block.inset / drawing.width == pytest.approx(fit["inset"].median, abs=1e-3)
 
 
 @pytest.mark.slow
 def test_fit_is_reproducible_by_seed(experiment, slender):
     """Bit by bit, on any number of threads; another seed gives another sample of the same answer."""
-    again, other = (fit_block(experiment, free=["alpha"], **KNOWN, seed=seed) for seed in (0, 1))
-    assert again.marginals == slender.marginals and (again.probability == slender.probability).all()
-    assert other["alpha"] != slender["alpha"]
-    assert other["alpha"].median == pytest.approx(slender["alpha"].median, abs=0.3 * np.diff(slender["alpha"].interval)[0])
+    repeat, second = (fit_block(experiment, free=["alpha"], **KNOWN, seed=seed) for seed in (0, 1))
+    assert repeat.marginals == slender.marginals and (repeat.probability == slender.probability).all()
+    assert second["alpha"] != slender["alpha"]
+    assert second["alpha"].median == pytest.approx(slender["alpha"].median, abs=0.3 * np.diff(slender["alpha"].interval)[0])
 
 
 @pytest.mark.slow
 def test_fit_weight_equals_repeated_outcomes(experiment):
     """Each twice over, or with a weight of two, is the same evidence; with a weight of zero it is none."""
     twice = fit_block([*experiment, *experiment], free=["alpha"], **KNOWN, folds=4)
-    double = fit_block([replace(each, weight=2.0) for each in experiment], free=["alpha"], **KNOWN, folds=4)
+    double = fit_block([replace(observation, weight=2.0) for observation in experiment], free=["alpha"], **KNOWN, folds=4)
     assert double["alpha"].interval == twice["alpha"].interval
     assert double.held_out.accuracy == pytest.approx(twice.held_out.accuracy)
-    lone = [replace(each, weight=float(k < 20)) for k, each in enumerate(experiment)]
+    lone = [replace(observation, weight=float(k < 20)) for k, observation in enumerate(experiment)]
     half = fit_block(experiment[:20], free=["alpha"], **KNOWN)
     assert fit_block(lone, free=["alpha"], **KNOWN)["alpha"].median == pytest.approx(half["alpha"].median, rel=0.02)
 
 
 def test_fit_with_all_or_no_falls_warns_of_prior():
     """One side is bounded, and what was thought before decides the other: it is said."""
-    for happened, strength, said in ((False, 1.0, "no overturning among"), (True, 40.0, "only overturning among")):
-        seen = [Observation(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
-        found = fit_block(seen, free=["alpha"], **KNOWN)
-        assert any(said in text for text in found.warnings)
-        assert found.held_out.folds == 3
+    for happened, strength, message in ((False, 1.0, "no overturning among"), (True, 40.0, "only overturning among")):
+        observations = [Observation(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
+        fit = fit_block(observations, free=["alpha"], **KNOWN)
+        assert any(message in text for text in fit.warnings)
+        assert fit.held_out.folds == 3
 
 
 def test_fit_of_one_record_has_no_cross_validation():
     """Nothing can be held out."""
     motion = pulse(1.0, 0.8)
-    seen = [Observation(motion, scale > 4.0, scale=scale, record="one") for scale in (2.0, 3.0, 5.0, 6.0)]
-    found = fit_block(seen, free=["alpha"], **KNOWN)
-    assert found.held_out is None and found.probability_held_out is None
-    assert any("outcomes of a single record" in text for text in found.warnings)
-    assert found.probability[0] < 0.5 < found.probability[-1]
+    observations = [Observation(motion, scale > 4.0, scale=scale, record="one") for scale in (2.0, 3.0, 5.0, 6.0)]
+    fit = fit_block(observations, free=["alpha"], **KNOWN)
+    assert fit.held_out is None and fit.probability_held_out is None
+    assert any("outcomes of a single record" in text for text in fit.warnings)
+    assert fit.probability[0] < 0.5 < fit.probability[-1]
 
 
 def test_fit_to_movement_determines_slenderness_only():
     """A block rocks above g tan(alpha), whatever its size: alpha is found, p stays as it was thought before, and that is said."""
     peaks = np.linspace(1.0, 5.0, 30)
-    seen = [Observation(pulse(peak, 1.0), peak > 9.80665 * np.tan(0.25)) for peak in peaks]
-    found = fit_block(seen, kind="moved", free=["alpha", "p"], scatter=0.02, lapse=0.02, runs=4)
-    assert found["alpha"].median == pytest.approx(0.25, rel=0.05)
-    assert found["p"].narrowed > 0.8 and not found["p"].identified
-    assert any("poorly constrained" in text and "p" in text for text in found.warnings)
-    assert any("determine the slenderness only" in text for text in found.warnings)
+    observations = [Observation(pulse(peak, 1.0), peak > 9.80665 * np.tan(0.25)) for peak in peaks]
+    fit = fit_block(observations, kind="moved", free=["alpha", "p"], scatter=0.02, lapse=0.02, runs=4)
+    assert fit["alpha"].median == pytest.approx(0.25, rel=0.05)
+    assert fit["p"].narrowed > 0.8 and not fit["p"].identified
+    assert any("poorly constrained" in text and "p" in text for text in fit.warnings)
+    assert any("determine the slenderness only" in text for text in fit.warnings)
 
 
 @pytest.mark.slow
 def test_fit_warns_of_correlated_parameters():
     """A wider base and more worn edges are the same block."""
-    found = fit_block(shaken(30, 2), free=["alpha", "inset"], **KNOWN)
-    pair = next(each for each in found.correlations if {each.first, each.second} == {"alpha", "inset"})
+    observations = fit_block(shaken(30, 2), free=["alpha", "inset"], **KNOWN)
+    pair = next(correlation for correlation in observations.correlations if {correlation.first, correlation.second} == {"alpha", "inset"})
     assert pair.coefficient > 0.9
-    assert any("cannot be separated" in text for text in found.warnings)
+    assert any("cannot be separated" in text for text in observations.warnings)
 
 
 @pytest.mark.slow
 def test_fit_of_random_outcomes_raises_lapse_rate():
     """Coins: no block explains them, the lapses grow, and nothing is foretold better than by the share."""
-    dice = np.random.default_rng(0)
-    seen = [replace(each, happened=bool(dice.random() < 0.5)) for each in shaken(60, 3)]
-    found = fit_block(seen, free=["alpha"], block=TRUTH, runs=4)
-    assert found["lapse"].median > 0.2
-    assert found.held_out.accuracy < 0.7
+    rng = np.random.default_rng(0)
+    observations = [replace(item, happened=bool(rng.random() < 0.5)) for item in shaken(60, 3)]
+    fit = fit_block(observations, free=["alpha"], block=TRUTH, runs=4)
+    assert fit["lapse"].median > 0.2
+    assert fit.held_out.accuracy < 0.7
 
 
-WRONG = {
+INVALID = {
     "no outcome": ({"outcomes": []}, "requires an outcome with a positive weight"),
     "no weight": ({"outcomes": [Observation(pulse(1.0, 1.0), True, weight=0.0)]}, "none with a weight"),
     "a parameter": ({"free": ["mu"]}, "'mu' cannot be fitted; available: alpha, p, restitution, inset"),
@@ -152,16 +153,16 @@ WRONG = {
     "lapses": ({"lapse": -0.1}, "lapse rate"),
     "a restitution": ({"restitution": 1.2}, "restitution"),
     "a kind": ({"kind": "slid"}, "'slid'"),
-    "an inset of a length": ({"inset": __import__("seisblock").EdgeWear(length_m=0.01)}, "requires a `block`"),
+    "an inset of a length": ({"inset": EdgeWear(length_m=0.01)}, "requires a `block`"),
 }
 
 
-@pytest.mark.parametrize("what", WRONG)
-def test_fit_rejects_invalid_options(what, experiment):
+@pytest.mark.parametrize("quantity", INVALID)
+def test_fit_rejects_invalid_options(quantity, experiment):
     """In one sentence, before anything is followed."""
-    given, said = WRONG[what]
-    with pytest.raises(ParameterError, match=said):
-        fit_block(**{"outcomes": experiment, **given})
+    arguments, message = INVALID[quantity]
+    with pytest.raises(ParameterError, match=message):
+        fit_block(**{"outcomes": experiment, **arguments})
 
 
 def test_fit_rejects_invalid_outcomes():
@@ -178,12 +179,12 @@ def test_fit_points_round_trip_through_blocks():
     """Alpha and p come back from the blocks; a drawing with its centre of gravity elsewhere keeps its shape."""
     odd = Block(0.4, 1.0, centroid_height=0.4, centroid_offset=0.05, centroid_inertia=30.0)
     for drawing in (None, odd):
-        made = family("alpha", "p", block=drawing)
+        fit = family("alpha", "p", block=drawing)
         places = np.random.default_rng(0).random((20, 2))
-        wanted, blocks = made.values(places), made.blocks(places)
-        np.testing.assert_allclose(blocks.slendernesses.min(axis=1), wanted["alpha"], rtol=1e-12)
+        expected, blocks = fit.values(places), fit.blocks(places)
+        np.testing.assert_allclose(blocks.slendernesses.min(axis=1), expected["alpha"], rtol=1e-12)
         side = blocks.slendernesses.argmin(axis=1)
-        np.testing.assert_allclose(np.sqrt(9.80665 * blocks.lever_ratios[np.arange(20), side]), wanted["p"], rtol=1e-12)
+        np.testing.assert_allclose(np.sqrt(9.80665 * blocks.lever_ratios[np.arange(20), side]), expected["p"], rtol=1e-12)
     ratio = blocks.right / blocks.left
     np.testing.assert_allclose(ratio, odd.arms[0] / odd.arms[1], rtol=1e-12)
     rectangle = from_slenderness(0.3, 5.0)
@@ -194,15 +195,15 @@ def test_fit_points_round_trip_through_blocks():
 def test_fit_rows_without_scatter_equal_solve_rock():
     """Rows of a fit are runs of `rock`, worn edges, scale and a given restitution among them."""
     bounds = {"alpha": (0.1, 0.5), "p": (3.0, 6.0)}
-    made = family("alpha", "p", bounds=bounds, inset=0.1, restitution=0.85)
-    seen = make_experiment([Observation(pulse(1.0, f), True, scale=scale) for f in (0.7, 1.5) for scale in (3.0, 6.0, 9.0)])
+    fit = family("alpha", "p", bounds=bounds, inset=0.1, restitution=0.85)
+    observations = make_experiment([Observation(pulse(1.0, f), True, scale=scale) for f in (0.7, 1.5) for scale in (3.0, 6.0, 9.0)])
     places = np.random.default_rng(1).random((15, 2))
-    shares = outcome_shares(seen, made, places, np.full(6, 2), (0, 0))
-    values = made.values(places)
-    for k, each in enumerate(seen.outcomes):
+    shares = outcome_shares(observations, fit, places, np.full(6, 2), (0, 0))
+    values = fit.values(places)
+    for k, outcome in enumerate(observations.outcomes):
         falls = [
             rock_verdict(
-                from_slenderness(a, p).with_wear(0.1), each.motion, scale=each.scale, options=RockOptions(restitution=0.85)
+                from_slenderness(a, p).with_wear(0.1), outcome.motion, scale=outcome.scale, options=RockOptions(restitution=0.85)
             ).overturned
             for a, p in zip(values["alpha"], values["p"], strict=True)
         ]
@@ -212,25 +213,25 @@ def test_fit_rows_without_scatter_equal_solve_rock():
 
 def test_likelihood_equals_product_over_outcomes():
     """Against the formula, written out outcome by outcome."""
-    dice = np.random.default_rng(0)
-    seen = make_experiment([replace(each, weight=float(w)) for each, w in zip(shaken(12, 1), dice.integers(0, 4, 12), strict=True)])
-    shares = dice.integers(0, SHARE_DENOMINATOR + 1, (12, 5))
-    some = make_lapse_rate(None)
-    found = log_likelihood(shares, *seen.outcome_counts(), some)
-    for i, value in enumerate(some.values):
+    rng = np.random.default_rng(0)
+    observations = make_experiment([replace(item, weight=float(w)) for item, w in zip(shaken(12, 1), rng.integers(0, 4, 12), strict=True)])
+    shares = rng.integers(0, SHARE_DENOMINATOR + 1, (12, 5))
+    subset = make_lapse_rate(None)
+    likelihood = log_likelihood(shares, *observations.outcome_counts(), subset)
+    for i, value in enumerate(subset.values):
         for j in range(5):
             chance = value / 2 + (1 - value) * shares[:, j] / SHARE_DENOMINATOR
-            expected = np.sum(seen.weights * np.log(np.where(seen.happened > 0, chance, 1 - chance)))
-            assert found[i, j] == pytest.approx(expected, rel=1e-12)
+            expected = np.sum(observations.weights * np.log(np.where(observations.happened > 0, chance, 1 - chance)))
+            assert likelihood[i, j] == pytest.approx(expected, rel=1e-12)
     # 9 (1 - lambda)^8 in equal parts
-    assert np.mean(some.values) == pytest.approx(0.1, abs=0.002)
-    np.testing.assert_allclose(1.0 - (1.0 - some.values) ** 9, (np.arange(24) + 0.5) / 24, rtol=1e-12)
+    assert np.mean(subset.values) == pytest.approx(0.1, abs=0.002)
+    np.testing.assert_allclose(1.0 - (1.0 - subset.values) ** 9, (np.arange(24) + 0.5) / 24, rtol=1e-12)
 
 
 def test_proposal_density_integrates_to_one():
     """Over the square it adds up to one, and points drawn from it fill it as it says."""
-    dice = np.random.default_rng(4)
-    cloud = make_proposal(dice.normal([0.1, 0.6], [0.1, 0.05], (60, 2)).clip(0.01, 0.99), np.ones(60), 4000, dice)
+    rng = np.random.default_rng(4)
+    cloud = make_proposal(rng.normal([0.1, 0.6], [0.1, 0.05], (60, 2)).clip(0.01, 0.99), np.ones(60), 4000, rng)
     middles = (np.arange(150) + 0.5) / 150
     grid = np.stack(np.meshgrid(middles, middles), axis=-1).reshape(-1, 2)
     density = np.exp(cloud.log_density(grid))
@@ -244,25 +245,27 @@ def test_folds_are_balanced_and_keep_records_together(experiment):
     """Folds differ by one record at most; outcomes of one record are in one fold."""
     counts = np.bincount(assign_folds(23, 5, 0))
     assert counts.max() - counts.min() == 1 and counts.sum() == 23
-    seen = make_experiment([replace(each, record=f"r{k % 8}") for k, each in enumerate(experiment)])
-    assert seen.records == 8
-    folds = assign_folds(8, 4, 0)[seen.record]
+    observations = make_experiment([replace(observation, record=f"r{k % 8}") for k, observation in enumerate(experiment)])
+    assert observations.records == 8
+    folds = assign_folds(8, 4, 0)[observations.record]
     assert all(len(set(folds[np.arange(40) % 8 == k])) == 1 for k in range(8))
 
 
 def test_scores_equal_hand_calculation(experiment):
     """Accuracy, Brier's score, the share of the others and the best threshold on the peak velocity, by hand."""
-    seen = make_experiment([replace(each, happened=k >= 20, weight=1.0 + (k == 0)) for k, each in enumerate(experiment)])
+    observations = make_experiment(
+        [replace(observation, happened=k >= 20, weight=1.0 + (k == 0)) for k, observation in enumerate(experiment)]
+    )
     chance = np.where(np.arange(40) >= 20, 0.8, 0.3)
     chance[5] = 0.9
     folds = np.arange(40) % 4
-    found = score_predictions(seen, chance, np.arange(40.0), folds, 50.0)
-    assert found.accuracy == pytest.approx(40 / 41)
-    assert found.brier == pytest.approx((20 * 0.04 + 20 * 0.09 + 0.81) / 41)
-    assert found.threshold_accuracy == pytest.approx(40 / 41)  # 19 lies in the middle between its neighbours
-    assert found.rate_accuracy < 0.6
-    assert [step.outcomes for step in found.calibration] == [19, 20, 1]
-    assert found.calibration[0].mean_probability == pytest.approx(0.3) and found.calibration[0].share == 0.0
+    result = score_predictions(observations, chance, np.arange(40.0), folds, 50.0)
+    assert result.accuracy == pytest.approx(40 / 41)
+    assert result.brier == pytest.approx((20 * 0.04 + 20 * 0.09 + 0.81) / 41)
+    assert result.threshold_accuracy == pytest.approx(40 / 41)  # 19 lies in the middle between its neighbours
+    assert result.rate_accuracy < 0.6
+    assert [step.outcomes for step in result.calibration] == [19, 20, 1]
+    assert result.calibration[0].mean_probability == pytest.approx(0.3) and result.calibration[0].share == 0.0
 
 
 def test_calibration_bins_include_both_ends():

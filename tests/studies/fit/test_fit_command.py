@@ -52,14 +52,14 @@ def test_fit_writes_document_table_and_figure(folder):
     """Parameters with intervals, what is held out, each outcome; the table beside it and the figure."""
     answer = run(f"fit seen.csv {QUICK} --folds 3 --json --csv out.csv")
     assert answer.exit_code == 0, answer.stderr
-    found = json.loads(answer.stdout)
-    assert [each["parameter"] for each in found["results"]] == ["alpha"] and found["results"][0]["unit"] == "rad"
-    low, high = found["results"][0]["interval"]
-    assert low < TRUTH.slenderness < high and found["held_out"]["folds"] == 3
-    assert [each["happened"] for each in found["outcomes"]] == FELL and 0 < sum(FELL) < 6
-    assert found["outcomes"][4]["pga_m_s2"] == pytest.approx(6.0, rel=1e-3)
+    output = json.loads(answer.stdout)
+    assert [result["parameter"] for result in output["results"]] == ["alpha"] and output["results"][0]["unit"] == "rad"
+    low, high = output["results"][0]["interval"]
+    assert low < TRUTH.slenderness < high and output["held_out"]["folds"] == 3
+    assert [outcome["happened"] for outcome in output["outcomes"]] == FELL and 0 < sum(FELL) < 6
+    assert output["outcomes"][4]["pga_m_s2"] == pytest.approx(6.0, rel=1e-3)
     fixed = {"alpha_rad": None, "p_rad_s": pytest.approx(4.0, abs=0.01), "restitution": None, "inset": 0.0, "scatter": 0.05}
-    assert found["parameters"]["fixed"] == fixed
+    assert output["parameters"]["fixed"] == fixed
     rows = Path("out.csv").read_text().splitlines()
     assert rows[0].startswith("line,record,component,scale,weight,fell,probability") and len(rows) == 7
     assert rows[1].startswith("2,p0.csv,EW,1.0,1.0,0,")
@@ -77,11 +77,11 @@ def test_outcome_table_accepts_headings_words_and_bundles(folder):
         "runs.zip/pulse_03.csv,yes,1,5,",
         "p1.csv,,,,nobody looked",
     )
-    found = read_outcomes(folder / "seen.csv")
-    assert [each.happened for each in found] == [False, True, True] and found.lines == (3, 4, 5)
-    assert [(each.weight, each.scale) for each in found] == [(2.0, 1.0), (1.0, 0.9), (1.0, 5.0)]
-    assert any("1 rows without an outcome" in note for note in found.notes)
-    assert np.abs(found.observed[2].motion.horizontal).max() == pytest.approx(1.0, rel=1e-2)
+    observations = read_outcomes(folder / "seen.csv")
+    assert [item.happened for item in observations] == [False, True, True] and observations.lines == (3, 4, 5)
+    assert [(item.weight, item.scale) for item in observations] == [(2.0, 1.0), (1.0, 0.9), (1.0, 5.0)]
+    assert any("1 rows without an outcome" in note for note in observations.notes)
+    assert np.abs(observations.observed[2].motion.horizontal).max() == pytest.approx(1.0, rel=1e-2)
 
 
 def test_fit_skips_and_reports_rows_without_record(folder):
@@ -89,9 +89,9 @@ def test_fit_skips_and_reports_rows_without_record(folder):
     lines = [f"p{k}.csv,{int(peak > 3.5)}" for k, peak in enumerate(STRENGTHS)]
     table(folder, "record,fell", *lines, "gone.csv,1", "synthetic_jma.csv,0")
     answer = run(f"fit seen.csv {QUICK}")
-    told = " ".join(answer.stderr.split())
-    assert answer.exit_code == 0 and "2 of 8 rows excluded" in told
-    assert "line 8: gone.csv: no such file" in told and "line 9: synthetic_jma.csv has the horizontal components NS, EW" in told
+    output = " ".join(answer.stderr.split())
+    assert answer.exit_code == 0 and "2 of 8 rows excluded" in output
+    assert "line 8: gone.csv: no such file" in output and "line 9: synthetic_jma.csv has the horizontal components NS, EW" in output
     strict = run(f"fit seen.csv {QUICK} --strict")
     assert strict.exit_code == 3 and "seen.csv, line 8" in strict.stderr
     assert run(f"fit seen.csv {QUICK} --component EW").stderr.count("excluded") == 1
@@ -103,12 +103,12 @@ def test_fit_skips_and_reports_rows_without_record(folder):
 def test_fit_outcome_column_is_selectable(folder):
     """Both columns: fell, and it is said; or the other."""
     table(folder, "record,fell,moved", *(f"p{k}.csv,0,1" for k in range(3)))
-    found = read_outcomes("seen.csv")
-    assert found.kind == "fell" and any("column fell used" in note for note in found.notes)
-    assert [each.happened for each in read_outcomes("seen.csv", kind="moved")] == [True] * 3
+    observations = read_outcomes("seen.csv")
+    assert observations.kind == "fell" and any("column fell used" in note for note in observations.notes)
+    assert [outcome.happened for outcome in read_outcomes("seen.csv", kind="moved")] == [True] * 3
 
 
-WRONG = {
+INVALID = {
     "no column record": (["file name,fell", "p0.csv,1"], "expected the columns record and fell"),
     "no outcome": (["record,colour", "p0.csv,red"], "expected the columns record and fell or moved"),
     "two columns": (["record,fell,overturned", "p0.csv,1,1"], "two columns mean fell"),
@@ -123,18 +123,18 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("what", WRONG)
-def test_fit_rejects_invalid_table_with_line(what, folder):
+@pytest.mark.parametrize("quantity", INVALID)
+def test_fit_rejects_invalid_table_with_line(quantity, folder):
     """In one sentence that names the line."""
-    lines, said = WRONG[what]
+    lines, message = INVALID[quantity]
     table(folder, *lines)
     answer = run("fit seen.csv")
-    assert answer.exit_code == 3 and said in " ".join(answer.stderr.split()), answer.stderr
+    assert answer.exit_code == 3 and message in " ".join(answer.stderr.split()), answer.stderr
     assert answer.stderr.count("\n") == 1
 
 
 @pytest.mark.parametrize(
-    ("options", "code", "said"),
+    ("options", "code", "message"),
     [
         ("--free mu", 3, "'mu' cannot be fitted"),
         ("--free alpha", 3, "p must be free or known; add to --free, or give the --width and --height"),
@@ -149,23 +149,23 @@ def test_fit_rejects_invalid_table_with_line(what, folder):
         ("--csv seen.csv", 3, "seen.csv"),
     ],
 )
-def test_fit_rejects_conflicting_options(options, code, said, folder):
+def test_fit_rejects_conflicting_options(options, code, message, folder):
     """With the names of the options."""
     answer = run(f"fit seen.csv {options}")
-    assert answer.exit_code == code and said in " ".join(answer.stderr.split()), answer.stderr
+    assert answer.exit_code == code and message in " ".join(answer.stderr.split()), answer.stderr
     assert (folder / "seen.csv").read_text().startswith("record,fell")
 
 
 def test_fit_rejects_missing_table(folder):
     """Nor a directory, nor the name of another sample."""
-    for name, said in (("gone.csv", "bundled: shaken_block.csv"), (".", "is a folder"), ("aoyama.csv", "no file of outcomes")):
-        assert said in run(f"fit {name}").stderr
+    for name, message in (("gone.csv", "bundled: shaken_block.csv"), (".", "is a folder"), ("aoyama.csv", "no file of outcomes")):
+        assert message in run(f"fit {name}").stderr
     with pytest.raises(RecordNotFoundError):
         sample_path("gone.csv")
 
 
 def test_bundled_experiment_equals_script_output():
     """The table, byte by byte, and the pulses, which another zlib may pack otherwise."""
-    _, made = make_shaken_block.make()
-    assert sample_path("shaken_block.csv").read_bytes() == made
+    _, created = make_shaken_block.make()
+    assert sample_path("shaken_block.csv").read_bytes() == created
     assert len(read_outcomes("shaken_block.csv")) == 60

@@ -1,0 +1,464 @@
+"""Fragments of the page: forms, progress, results and errors, from the documents of the commands."""
+
+from __future__ import annotations
+
+import csv
+import shlex
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from seisblock.app import forms
+from seisblock.app.jobs import Job, JobState
+from seisblock.app.sessions import Tab
+from seisblock.bodies.body_name import body_name
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.core.i18n import LANGUAGES, N_, format_percent, format_share, gettext, join_list
+from seisblock.core.units import parse_length
+from seisblock.output.templating import make_environment
+from seisblock.samples import DEFAULT_SAMPLE, REAL_SAMPLE, list_samples
+
+TEMPLATES = Path(__file__).with_name("templates")
+
+KINDS = ("record", "object", "film", "report", "survey", "collection", "secure", "event")
+"""Kinds of jobs."""
+
+TABS = {"object": N_("One object"), "survey": N_("A survey"), "collection": N_("A collection"), "event": N_("An event")}
+"""Tabs of the page."""
+
+LANGUAGE_NAMES = {"en": "English", "ja": "日本語"}
+
+LEVELS = {"likely overturns": "bad", "may overturn": "mild", "moves": "minor", "stays": "good"}
+"""Colour of a result by class, see :data:`seisblock.studies.assessment.CLASSES`."""
+
+DRAWING_HEIGHT_M, DRAWING_WIDTH_M = 2.2, 1.6
+"""Part of the room that the drawing of an object shows, m."""
+
+GAL = 100.0
+"""gal in 1 m/s^2; also kine in 1 m/s and cm in 1 m."""
+
+
+def render(template: str, **values: Any) -> str:
+    """Return a fragment in the language of the locale."""
+    return make_environment(TEMPLATES).get_template(template).render(**values)
+
+
+def page(tab: Tab) -> str:
+    """Return the page of a new tab."""
+    records = [(sample.name, gettext(sample.description)) for sample in list_samples() if sample.kind == "record"]
+    return render(
+        "page.html",
+        tab=tab,
+        tabs=TABS,
+        languages={code: LANGUAGE_NAMES[code] for code in LANGUAGES},
+        records=records,
+        default_record=DEFAULT_SAMPLE,
+        intensities=forms.JMA_CHOICES,
+        fields=_field_values({}),
+        default_intensity=forms.DEFAULT_INTENSITY,
+        record_scenario=forms.RECORD_SCENARIO,
+        survey_sheet=forms.SURVEY_SHEET,
+        bundled_cemetery=forms.BUNDLED_CEMETERY,
+        event_sample=REAL_SAMPLE,
+        solver_fields=forms.solver_fields(),
+        period=forms.FLOOR_PERIOD_S,
+    )
+
+
+def object_fields(tab: Tab, form: Mapping[str, str]) -> str:
+    """Return the fields of the object that was chosen; one by its sizes keeps those that were typed."""
+    return render("object_fields.html", tab=tab, fields=_field_values(form))
+
+
+def _field_values(form: Mapping[str, str]) -> dict[str, Any]:
+    """Return the fields of an object: choices with drawings, and the sizes of the chosen one."""
+    choice = form.get("object", "")
+    bodies, chosen = forms.body_options(), forms.find_body(choice)
+    width, height = (form.get("width", ""), form.get("height", "")) if chosen is None else forms.size_texts(chosen)
+    return {
+        "choice": choice or forms.OWN_SIZES + "block",
+        "kinds": {forms.OWN_SIZES + kind: label for kind, label in forms.KIND_LABELS.items()},
+        "file": forms.FILE,
+        "bodies": bodies,
+        "drawings": [(body, _drawing(body)) for body in bodies if body.width_m is not None],
+        "width": width,
+        "height": height,
+        "mu": forms.number_text(chosen.mu) if chosen else form.get("mu", ""),
+        "surfaces": forms.surface_labels(),
+    }
+
+
+def _drawing(body: forms.BodyOption) -> dict[str, float]:
+    """Return the rectangle of a body in a drawing to scale, in per cent of its height."""
+    assert body.width_m is not None and body.height_m is not None
+    scale = 100.0 / max(DRAWING_HEIGHT_M, body.height_m, body.width_m * DRAWING_HEIGHT_M / DRAWING_WIDTH_M)
+    width, height = body.width_m * scale, body.height_m * scale
+    room = 100.0 * DRAWING_WIDTH_M / DRAWING_HEIGHT_M
+    return {
+        "x": round(0.5 * (room - width), 2),
+        "y": round(100.0 - height, 2),
+        "width": round(width, 2),
+        "height": round(height, 2),
+        "room": round(room, 2),
+    }
+
+
+def error(text: str, tab: Tab | None = None) -> str:
+    """Return the region of errors; with a tab, an empty input of its record, too."""
+    region = render("error.html", error=text)
+    return region if tab is None else region + render("record_input.html", tab=tab, oob=True)
+
+
+def error_page(text: str) -> str:
+    """Return a page with one error, for a link that opens in a window of its own."""
+    return render("error_page.html", error=text)
+
+
+def job_started(tab: Tab, kind: str) -> str:
+    """Return the place of a job's result while it runs, and an empty region of errors."""
+    return render("job.html", tab=tab, kind=kind, job=tab.jobs[kind], serial=tab.serials[kind], text="", share=None)
+
+
+def progress(tab: Tab, kind: str, job: Job) -> str:
+    """Return the progress of a job."""
+    text, share = job.progress
+    if job.state is JobState.WAITING:
+        text = gettext("waiting for another computation")
+    return render("progress.html", tab=tab, kind=kind, serial=tab.serials[kind], text=text or gettext("computing"), share=share)
+
+
+def cancelled(tab: Tab, kind: str) -> str:
+    """Return the place of a job's result after its cancellation."""
+    return render("cancelled.html", tab=tab, kind=kind)
+
+
+def ended(tab: Tab, kind: str, job: Job) -> str:
+    """Return the result of a job, or its error."""
+    if job.state is JobState.FAILED:
+        return render("failed.html", tab=tab, kind=kind, error=job.error)
+    if job.state is JobState.CANCELLED:
+        return cancelled(tab, kind)
+    return VIEWS[kind](tab, job)
+
+
+def record_summary(tab: Tab, job: Job) -> str:
+    """Return station, earthquake, peaks, checks and waveform of a record."""
+    from seisblock.measures.intensity import jma_class
+
+    document = job.document
+    record = document["record"]
+    checks = [gettext(CHECK_LABELS.get(word, word)) for word in record["checks"]["proved"]] if record else []
+    assumed = [gettext(CHECK_LABELS.get(word, word)) for word in record["checks"]["assumed"]] if record else []
+    intensity = next((row["jma_intensity"] for row in document["results"] if row.get("jma_intensity") is not None), None)
+    return render(
+        "record.html",
+        tab=tab,
+        name=record["station"] or record["source"],
+        facts=[
+            (gettext("files of the record"), join_list(tab.record)),
+            (gettext("station"), " ".join(text for text in (record["station"], record["station_name"]) if text)),
+            (gettext("begin"), record["local_start"] or record["start"] or ""),
+            (gettext("earthquake"), _earthquake(record)),
+            (
+                gettext("length"),
+                gettext("{duration:.4g} s, {samples} samples", duration=record["dt_s"] * record["samples"], samples=record["samples"]),
+            ),
+            (gettext("JMA intensity"), "" if intensity is None else f"{intensity:.1f} ({gettext(jma_class(intensity))})"),
+            (gettext("proved"), join_list(checks)),
+            (gettext("assumed"), join_list(assumed)),
+        ],
+        peaks=[(row["component"], f"{GAL * row['pga_m_s2']:.4g}", f"{GAL * row['pgv_m_s']:.4g}") for row in document["results"]],
+        notes=job.notes,
+    )
+
+
+CHECK_LABELS = {"count": N_("sample count")}
+"""Labels of checks whose bare word stands for other counts, too."""
+
+
+def _earthquake(record: Mapping[str, Any]) -> str:
+    from seisblock.output.text.record_info import describe_earthquake
+    from seisblock.records.site import Earthquake
+
+    if not record["earthquake"]:
+        return ""
+    values = {key: value for key, value in record["earthquake"].items() if key != "origin_time"}
+    return describe_earthquake(Earthquake(None, **values), record["earthquake"]["origin_time"] or "", record["epicentral_distance_km"])
+
+
+def intensity_summary(tab: Tab) -> str:
+    """Return the description of a ground motion given by its intensity."""
+    return render("intensity.html", tab=tab, label=gettext(forms.JMA_CHOICES.get(tab.intensity, tab.intensity)))
+
+
+def object_result(tab: Tab, job: Job) -> str:
+    """Return probability, sentence, models, figure and links of one object."""
+    document = job.document
+    is_scenario = job.arguments[0] == "scenario"
+    result = _scenario_values(document, _table_rows(job)[0]) if is_scenario else _respond_values(document)
+    return render(
+        "object.html",
+        tab=tab,
+        serial=tab.serials["object"],
+        **result,
+        notes=job.notes,
+        has_film=not is_scenario,
+        command=shlex.join(["seisblock", *job.arguments]),
+        python="" if is_scenario else python_lines(job.arguments),
+    )
+
+
+def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
+    from seisblock.output.text.tables import format_share_interval
+    from seisblock.report.text.assessment import headline
+
+    rows = [row["assessment"] for row in document["results"] if "assessment" in row]
+    if not rows:
+        return {
+            "probability": None,
+            "text": "",
+            "verdict": gettext("no samples: no probability"),
+            "level": "minor",
+            "rows": [],
+            "models": [],
+        }
+    worst = max(rows, key=lambda row: row["overturning_probability"])
+    return {
+        "probability": worst["overturning_probability"],
+        "text": format_percent(worst["overturning_probability"], "g"),
+        "verdict": headline(_assessment(worst)),
+        "level": LEVELS[worst["class"]],
+        "rows": [
+            (
+                row["direction"],
+                format_percent(row["overturning_probability"], "g"),
+                format_share_interval(row["interval"]),
+                format_percent(row["moved_probability"], "g"),
+                gettext(row["class"]),
+            )
+            for row in rows
+        ],
+        "models": [
+            (
+                gettext(model["name"]),
+                gettext("overturns") if model["overturns"] else gettext("stands"),
+                "" if model["factor_to_overturn"] is None else f"{model['factor_to_overturn']:.2f}",
+            )
+            for model in worst["models"]
+        ],
+    }
+
+
+def _assessment(row: Mapping[str, Any]) -> Any:
+    from seisblock.studies.assessment import Assessment
+
+    return Assessment(
+        row["overturning_probability"], tuple(row["interval"]), row["runs"], row["moved_probability"], (), row["least_factor"],
+        row["greatest_factor"], row["predictable_until_s"], row["direction"], row["class"],
+    )  # fmt: skip
+
+
+def _scenario_values(document: Mapping[str, Any], texts: Mapping[str, str]) -> dict[str, Any]:
+    from seisblock.output.text.tables import format_share_interval
+
+    row = document["results"][0]
+    if row["failure"]:
+        return {"probability": None, "text": "", "verdict": texts["reason"], "level": "minor", "rows": [], "models": []}
+    share = format_percent(row["overturning_probability"], ".3g")
+    verdict = gettext(
+        "{verdict} ({share}; 95 % interval {interval})",
+        verdict=gettext(row["class"]),
+        share=share,
+        interval=format_share_interval(row["interval"]),
+    )
+    return {
+        "probability": row["overturning_probability"],
+        "text": share,
+        "verdict": verdict,
+        "level": LEVELS[row["class"]],
+        "rows": [],
+        "models": [],
+    }
+
+
+def python_lines(arguments: tuple[str, ...]) -> str:
+    """Return the lines of Python that give the probability of a command ``respond``; empty where its options have none.
+
+    A bundled body without a friction of the user is left out: the command samples around the friction of its file, `assess` around the
+    middle of the prior of its kind.
+    """
+    records, options = forms.split_arguments(arguments[1:])
+    if len(records) > 1 or not {"--width", "--height", "--mu"} <= options.keys() <= {"--width", "--height", "--kind", "--mu"}:
+        return ""
+    sizes = ", ".join(f"{parse_length(options[flag]):g}" for flag in ("--width", "--height"))
+    lines = ["import seisblock", "", f"record = seisblock.read({records[0] if records else DEFAULT_SAMPLE!r})"]
+    lines += [f"body = seisblock.Block({sizes})"]
+    lines += [f"body = seisblock.bodies.kinds.of_kind(body, {options['--kind']!r})"] if "--kind" in options else []
+    lines += [f"results = [seisblock.assess(body, record, mu={options['--mu']}, components=[c.code]) for c in record.horizontals]"]
+    return "\n".join([*lines, "print(max(result.overturning_probability for result in results))"])
+
+
+def film(tab: Tab, job: Job) -> str:
+    """Return the film player."""
+    del job
+    return render("film_slot.html", tab=tab, serial=tab.serials["film"])
+
+
+def cemetery_facts(cemetery: Cemetery) -> tuple[tuple[str, str], ...]:
+    """Return what was recognised of a sheet of gravestones."""
+    stones = cemetery.stones
+    counts = {
+        N_("height over width"): len(stones),
+        N_("width"): sum(stone.width is not None for stone in stones),
+        N_("overturning observed"): sum(stone.fallen is not None for stone in stones),
+        N_("reinforced"): sum(stone.reinforced for stone in stones),
+        N_("azimuth"): sum(stone.azimuth_deg is not None for stone in stones),
+    }
+    return tuple(
+        (gettext(name), gettext("{count} of {rows} rows", count=count, rows=len(stones))) for name, count in counts.items() if count
+    )
+
+
+def survey_result(tab: Tab, job: Job) -> str:
+    """Return shaking or rate, table of stones and contingency of a survey."""
+    document = job.document
+    is_estimate = job.arguments[0] == "infer"
+    result = document["results"][0] if is_estimate else document["results"][-1]
+    source = result if is_estimate else document
+    stones, contingency = source["each_stone"], source["contingency"]
+    return render(
+        "survey.html",
+        tab=tab,
+        name=tab.sheets["survey"],
+        columns=tab.columns,
+        facts=_shaking_facts(result) if is_estimate else _rate_facts(result),
+        agreement="" if not contingency else _agreement(contingency),
+        contingency=contingency,
+        stones=[
+            (
+                stone["id"],
+                "" if stone["width_m"] is None else f"{GAL * stone['width_m']:.3g}",
+                "" if stone["height_m"] is None else f"{GAL * stone['height_m']:.3g}",
+                _outcome(stone["overturns"]),
+                "" if stone["probability"] is None else format_share(stone["probability"]),
+                _outcome(stone["observed"]),
+                "" if stone["agrees"] is None else gettext("agrees") if stone["agrees"] else gettext("differs"),
+            )
+            for stone in stones
+        ],
+        notes=job.notes,
+        command=shlex.join(["seisblock", *job.arguments]),
+    )
+
+
+def _outcome(overturned: bool | None) -> str:
+    return "" if overturned is None else gettext("overturned") if overturned else gettext("remains standing")
+
+
+def _shaking_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
+    names = list(dict.fromkeys(gettext(name) for name in result["jma_classes"] if name))
+    classes = gettext("{low} to {high}", low=names[0], high=names[1]) if len(names) == 2 else "".join(names)
+    return [
+        (gettext("overturning rate"), _rate_text(result["fallen"], result["fallen"] + result["standing"])),
+        ("PGA", _with_interval(result["pga_m_s2"], result["pga_interval_m_s2"], "gal")),
+        ("PGV", _with_interval(result["pgv_m_s"], result["pgv_interval_m_s"], "kine")),
+        (gettext("JMA intensity"), classes if result["jma_intensity"] is None else f"{result['jma_intensity']:.1f} ({classes})"),
+        (gettext("class by the surveyors' rule"), gettext(result["jma_class_by_rule"] or "")),
+    ]
+
+
+def _rate_text(fallen: int, stones: int) -> str:
+    return gettext("{share} ({fallen} of {stones})", share=format_percent(fallen / stones), fallen=fallen, stones=stones)
+
+
+def _with_interval(value: float | None, interval: tuple[float | None, float | None], unit: str) -> str:
+    """Return an estimate with its 90 % interval, each end of which may be open."""
+    from seisblock.output.text.tables import DASH, format_number
+
+    low, high = (DASH if end is None else format_number(GAL * end, 3) for end in interval)
+    bounds = gettext("90 % interval {low} to {high}", low=low, high=high)
+    return bounds if value is None else f"{format_number(GAL * value, 3)} {unit} ({bounds})"
+
+
+def _rate_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
+    low, high = map(format_percent, result["rate_interval"])
+    bounds = gettext("95 % interval {low} to {high}", low=low, high=high)
+    return [(gettext("overturning rate"), f"{_rate_text(result['fallen'], result['stones'])}; {bounds}")]
+
+
+def _agreement(contingency: Mapping[str, int]) -> str:
+    from seisblock.report.text.stones import agreement_text
+    from seisblock.studies.survey.stones import Contingency
+
+    return agreement_text(Contingency(**contingency))
+
+
+def collection_result(tab: Tab, job: Job) -> str:
+    """Return the objects of a collection, worst first, each with its advice."""
+    from seisblock.output.text.tables import format_share_interval
+
+    rows = [
+        {
+            "name": row["body"],
+            "level": LEVELS.get(row["class"], "minor"),
+            "class": gettext(row["class"] or N_("no result")),
+            "overturns": "" if row["overturning_probability"] is None else format_share(row["overturning_probability"]),
+            "interval": "" if row["interval"] is None else format_share_interval(row["interval"]),
+            "moves": "" if row["moved_probability"] is None else format_share(row["moved_probability"]),
+            "advice": texts["reason"] or texts["advice"],
+            "has_measures": row["class"] in ("likely overturns", "may overturn"),
+        }
+        for row, texts in zip(job.document["results"], _table_rows(job), strict=True)
+    ]
+    return render("collection.html", tab=tab, rows=rows, notes=job.notes, command=shlex.join(["seisblock", *job.arguments]))
+
+
+def _table_rows(job: Job) -> list[dict[str, str]]:
+    """Return the rows of the CSV table of a command; its texts are in the language of the job, those of the document in English."""
+    with (job.folder / job.outputs["--csv"]).open(encoding="utf-8-sig", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def secure_result(tab: Tab, job: Job) -> str:
+    """Return the measures that make an object safe."""
+    from seisblock.report.text.secure import LABELS, measure_note, measure_value
+    from seisblock.studies.scenario.secure import Measure
+
+    result = job.document["results"][0]
+    names = {field.name for field in fields(Measure)}
+    measures = [Measure(**{key: value for key, value in row.items() if key in names}) for row in result["measures"]]
+    rows = [
+        (
+            gettext(LABELS[measure.measure]),
+            measure_value(measure),
+            "" if measure.overturning_probability is None else format_share(measure.overturning_probability),
+            measure_note(measure),
+        )
+        for measure in measures
+    ]
+    heading = gettext(
+        "{body}: overturning probability {now}, target {target}",
+        body=body_name(result["body"]),
+        now=format_share(result["overturning_probability"]),
+        target=format_share(result["target_probability"]),
+    )
+    return render("secure.html", tab=tab, heading=heading, rows=rows, command=shlex.join(["seisblock", *job.arguments]))
+
+
+def event_result(tab: Tab, job: Job) -> str:
+    """Return the map of an event."""
+    count = len(job.document["results"])
+    return render("event.html", tab=tab, count=count, notes=job.notes, command=shlex.join(["seisblock", *job.arguments]))
+
+
+VIEWS: Mapping[str, Callable[[Tab, Job], str]] = {
+    "record": record_summary,
+    "object": object_result,
+    "film": film,
+    "survey": survey_result,
+    "collection": collection_result,
+    "secure": secure_result,
+    "event": event_result,
+}
+"""View of each kind of job that is shown in the page."""

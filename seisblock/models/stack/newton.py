@@ -1,0 +1,459 @@
+"""Newton's method for the impulses of one step: an iteration costs about 1 us per stone of a tower.
+
+The laws are those of :mod:`seisblock.models.stack.pgs`. With the normal impulses in the friction limits held, the velocities after the
+step minimise a convex function: kinetic energy of the change, plus a quadratic penalty of each contact law about a centre impulse (the
+augmented Lagrangian). Its Newton steps are solved by a block Cholesky factorisation within the envelope of the contact graph (band of one
+block for a tower), and shortened by a line search, so that the active contacts cannot cycle. Friction limits follow from the last
+iterate; when they have settled, the centres move to the impulses, which removes the error of the penalty ([AlartCurnier1991]_). Of the
+distributions of a load over the points of a face the penalty selects one near that of the last step.
+"""
+
+from __future__ import annotations
+
+import math
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import BLOCK, INTEGER_TABLE, MATRIX, VECTOR
+from seisblock.models.stack.constraint_row import (
+    ARM_A,
+    ARM_B,
+    BILATERAL,
+    CONE_CENTRE,
+    IMPULSE,
+    MIN_NORMAL_VELOCITY,
+    MU,
+    NORMAL,
+    PENALTY,
+    PENALTY_CENTRE,
+    PRESSURE,
+    ROTATION_BIAS,
+    SLIP_CHANGE,
+    TRIAL_SLIP,
+    W,
+    apply_impulses,
+    relative_velocity,
+)
+
+_t = types()
+
+MAX_ITERATIONS, MAX_GROWTH = 600, 1e6
+"""Newton steps after which the sweeps take over; and error of the impulses over the first one (at least the tolerance) from which they
+diverge: high friction may let them grow without bound (Painleve)."""
+
+ACCURACY = 0.7
+"""Error of the velocities, over the tolerance, at which the iterations end."""
+
+FIRST_COMPLIANCE, COMPLIANCE_FACTOR, MIN_COMPLIANCE = 3e-2, 0.3, 1e-3
+"""Compliance of a contact over its Delassus block: at first, ratio of successive ones, and smallest."""
+
+STALLED_ITERATIONS, SOFTENING, MAX_COMPLIANCE, EASY_ITERATIONS = 15, 10.0, 0.3, 1
+"""Iterations without a move of the centres after which the compliance rises, by which factor, and up to which value: the active set of many
+sliding contacts settles sooner when they are soft. The compliance then falls only after a move within so few iterations."""
+
+MOVE_RATIO = 10.0
+"""Error of the impulses over that of the penalty at which the centres move."""
+
+SLOPE_RATIO, MAX_EXTENSION, MAX_TRIALS = 0.3, 16.0, 12
+"""Line search: slope over the first one at which it ends, largest step, and number of trials."""
+
+STEP, FREE_VELOCITY, GRADIENT, INERTIA, FIRST_NEIGHBOUR = 0, 6, 12, 18, 27
+WORK_COLUMNS = 28
+"""A body's step of velocity and spin (6), velocity without impulses (6), gradient (6), inertia matrix in the ground's axes (9), and the
+first body of its row in the factor."""
+
+
+@kernel(_t.UniTuple(_t.float64, 5)(VECTOR, _t.float64, _t.float64, _t.float64, _t.boolean), inline=True)
+def _penalty_impulse(row, u0, u1, u2, is_limit_held):
+    """Return the impulse of a contact at a relative velocity, its normal part, and the ratio of friction to its trial value (1: sticks)."""
+    n0, n1, n2, k, bound = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], row[PENALTY], row[MIN_NORMAL_VELOCITY]
+    if bound == -math.inf:
+        return 0.0, 0.0, 0.0, 0.0, 0.0
+    y0, y1, y2 = (
+        row[PENALTY_CENTRE] - k * (u0 - bound * n0),
+        row[PENALTY_CENTRE + 1] - k * (u1 - bound * n1),
+        row[PENALTY_CENTRE + 2] - k * (u2 - bound * n2),
+    )
+    normal = y0 * n0 + y1 * n1 + y2 * n2
+    if row[BILATERAL] > 0.0:
+        return normal * n0, normal * n1, normal * n2, normal, 0.0
+    y0, y1, y2 = y0 - normal * n0, y1 - normal * n1, y2 - normal * n2
+    normal = max(normal, 0.0)
+    pressure = row[PRESSURE] if is_limit_held else normal
+    s0, s1, s2 = pressure * row[CONE_CENTRE], pressure * row[CONE_CENTRE + 1], pressure * row[CONE_CENTRE + 2]
+    y0, y1, y2 = y0 - s0, y1 - s1, y2 - s2
+    size, limit = math.sqrt(y0 * y0 + y1 * y1 + y2 * y2), row[MU] * pressure
+    ratio = limit / size if size > limit else 1.0 if pressure > 0.0 else 0.0
+    return normal * n0 + s0 + ratio * y0, normal * n1 + s1 + ratio * y1, normal * n2 + s2 + ratio * y2, normal, ratio
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.int64, VECTOR, _t.float64, _t.float64, _t.float64, MATRIX), inline=True)
+def _subtract_impulse(a, b, ground, row, p0, p1, p2, work):
+    """Subtract an impulse and its moments from the gradients of both bodies."""
+    if a != ground:
+        g, x, y, z = work[a], row[ARM_A], row[ARM_A + 1], row[ARM_A + 2]
+        g[GRADIENT] -= p0
+        g[GRADIENT + 1] -= p1
+        g[GRADIENT + 2] -= p2
+        g[GRADIENT + 3] -= y * p2 - z * p1
+        g[GRADIENT + 4] -= z * p0 - x * p2
+        g[GRADIENT + 5] -= x * p1 - y * p0
+    if b != ground:
+        g, x, y, z = work[b], row[ARM_B], row[ARM_B + 1], row[ARM_B + 2]
+        g[GRADIENT] += p0
+        g[GRADIENT + 1] += p1
+        g[GRADIENT + 2] += p2
+        g[GRADIENT + 3] += y * p2 - z * p1
+        g[GRADIENT + 4] += z * p0 - x * p2
+        g[GRADIENT + 5] += x * p1 - y * p0
+
+
+@kernel(_t.void(_t.int64, MATRIX, MATRIX, MATRIX), inline=True)
+def _momentum_gradient(bodies, inertias, velocities, work):
+    """Start the gradient with the change of momentum since the velocities without impulses."""
+    for i in range(bodies):
+        g, v = work[i], velocities[i]
+        for k in range(3):
+            g[GRADIENT + k] = inertias[i, 0] * (v[k] - g[FREE_VELOCITY + k])
+        w0, w1, w2 = v[3] - g[FREE_VELOCITY + 3], v[4] - g[FREE_VELOCITY + 4], v[5] - g[FREE_VELOCITY + 5]
+        for k in range(3):
+            g[GRADIENT + 3 + k] = g[INERTIA + 3 * k] * w0 + g[INERTIA + 3 * k + 1] * w1 + g[INERTIA + 3 * k + 2] * w2
+
+
+@kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, MATRIX, MATRIX), inline=True)
+def _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work):
+    """Write free velocities, inertias and the envelope of the factor; the centres of the penalties are the impulses of the warm start."""
+    apply_impulses(n, contact_ids, rows, ground, inertias, -1.0, velocities)
+    for i in range(ground):
+        g, j = work[i], inverses[i]
+        for k in range(6):
+            g[FREE_VELOCITY + k] = velocities[i, k]
+        g[FIRST_NEIGHBOUR] = i
+        # inverse of a symmetric matrix by cofactors
+        c00, c01, c02 = j[4] * j[8] - j[5] * j[7], j[2] * j[7] - j[1] * j[8], j[1] * j[5] - j[2] * j[4]
+        d = 1.0 / (j[0] * c00 + j[3] * c01 + j[6] * c02)
+        g[INERTIA] = c00 * d
+        g[INERTIA + 1] = c01 * d
+        g[INERTIA + 2] = c02 * d
+        g[INERTIA + 3] = c01 * d
+        g[INERTIA + 4] = (j[0] * j[8] - j[2] * j[6]) * d
+        g[INERTIA + 5] = (j[2] * j[3] - j[0] * j[5]) * d
+        g[INERTIA + 6] = c02 * d
+        g[INERTIA + 7] = g[INERTIA + 5]
+        g[INERTIA + 8] = (j[0] * j[4] - j[1] * j[3]) * d
+    apply_impulses(n, contact_ids, rows, ground, inertias, 1.0, velocities)
+    for i in range(n):
+        row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
+        for k in range(3):
+            row[PENALTY_CENTRE + k] = row[IMPULSE + k]
+        row[PENALTY] = 3.0 / (FIRST_COMPLIANCE * (row[W] + row[W + 4] + row[W + 8]))
+        if a != ground and b != ground:
+            last = max(a, b)
+            work[last, FIRST_NEIGHBOUR] = min(work[last, FIRST_NEIGHBOUR], min(a, b))
+
+
+@kernel(_t.UniTuple(_t.float64, 2)(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, MATRIX, MATRIX), inline=True)
+def _errors(n, contact_ids, rows, ground, inertias, inverses, velocities, work):
+    """Write the impulses of the velocities, and the change of the velocities by them as step; return both errors of the laws, m/s.
+
+    The first is that change at the contacts, with friction limits that follow the normal impulses; the second is the velocity that the
+    penalty leaves where a contact presses or sticks, or the approach of an open one.
+    """
+    _momentum_gradient(ground, inertias, velocities, work)
+    penalty_error, change = 0.0, 0.0
+    for i in range(n):
+        row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
+        u0, u1, u2 = relative_velocity(a, b, row, velocities)
+        u0, u1, u2 = u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2]
+        p0, p1, p2, normal, ratio = _penalty_impulse(row, u0, u1, u2, False)
+        row[TRIAL_SLIP] = u0
+        row[TRIAL_SLIP + 1] = u1
+        row[TRIAL_SLIP + 2] = u2
+        row[IMPULSE] = p0
+        row[IMPULSE + 1] = p1
+        row[IMPULSE + 2] = p2
+        row[PRESSURE] = max(normal, 0.0)
+        _subtract_impulse(a, b, ground, row, p0, p1, p2, work)
+        bound = row[MIN_NORMAL_VELOCITY]
+        if bound == -math.inf:
+            continue
+        normal_speed = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
+        if normal != 0.0:
+            penalty_error = max(penalty_error, abs(normal_speed - bound))
+            if ratio == 1.0:
+                penalty_error = max(penalty_error, math.sqrt(max(u0 * u0 + u1 * u1 + u2 * u2 - normal_speed * normal_speed, 0.0)))
+        else:
+            penalty_error = max(penalty_error, bound - normal_speed)
+    for i in range(ground):
+        g, j = work[i], inverses[i]
+        for k in range(3):
+            g[STEP + k] = -g[GRADIENT + k] / inertias[i, 0]
+            g[STEP + 3 + k] = -(j[3 * k] * g[GRADIENT + 3] + j[3 * k + 1] * g[GRADIENT + 4] + j[3 * k + 2] * g[GRADIENT + 5])
+    for i in range(n):
+        u0, u1, u2 = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], rows[i], work)
+        change = max(change, max(abs(u0), max(abs(u1), abs(u2))))
+    return change, penalty_error
+
+
+@kernel(_t.void(VECTOR, _t.int64, VECTOR, _t.int64, VECTOR, _t.float64, VECTOR), inline=True)
+def _add_stiffness(first, first_arm, second, second_arm, stiffness, sign, block):
+    """Add sign G^T A H to a block, for the point's velocities G = [1, -r x] of one body and H of another, and a symmetric A."""
+    x, y, z = first[first_arm], first[first_arm + 1], first[first_arm + 2]
+    r, s, t = second[second_arm], second[second_arm + 1], second[second_arm + 2]
+    for i in range(3):
+        a0, a1, a2 = sign * stiffness[3 * i], sign * stiffness[3 * i + 1], sign * stiffness[3 * i + 2]
+        block[6 * i] += a0
+        block[6 * i + 1] += a1
+        block[6 * i + 2] += a2
+        # rows of -A (r x), columns of the second body's spin
+        block[6 * i + 3] += a2 * s - a1 * t
+        block[6 * i + 4] += a0 * t - a2 * r
+        block[6 * i + 5] += a1 * r - a0 * s
+    for j in range(6):
+        # rows of the first body's spin: r x (A H), from the columns of A H
+        c0, c1, c2 = 0.0, 0.0, 0.0
+        if j < 3:
+            c0, c1, c2 = sign * stiffness[j], sign * stiffness[3 + j], sign * stiffness[6 + j]
+        else:
+            q0, q1, q2 = (0.0, -t, s) if j == 3 else (t, 0.0, -r) if j == 4 else (-s, r, 0.0)
+            c0 = sign * (stiffness[0] * q0 + stiffness[1] * q1 + stiffness[2] * q2)
+            c1 = sign * (stiffness[3] * q0 + stiffness[4] * q1 + stiffness[5] * q2)
+            c2 = sign * (stiffness[6] * q0 + stiffness[7] * q1 + stiffness[8] * q2)
+        block[18 + j] += y * c2 - z * c1
+        block[24 + j] += z * c0 - x * c2
+        block[30 + j] += x * c1 - y * c0
+
+
+@kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, BLOCK, MATRIX))
+def _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work):
+    """Write gradient and Hessian of the convex function at the velocities, with the friction limits held."""
+    _momentum_gradient(ground, inertias, velocities, work)
+    for i in range(ground):
+        for j in range(int(work[i, FIRST_NEIGHBOUR]), i + 1):
+            for k in range(36):
+                blocks[j, i, k] = 0.0
+        for k in range(3):
+            blocks[i, i, 7 * k] = inertias[i, 0]
+            for m in range(3):
+                blocks[i, i, 6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
+    stiffness = blocks[ground, ground]
+    for i in range(n):
+        row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
+        u0, u1, u2 = row[TRIAL_SLIP], row[TRIAL_SLIP + 1], row[TRIAL_SLIP + 2]
+        p0, p1, p2, normal, ratio = _penalty_impulse(row, u0, u1, u2, True)
+        _subtract_impulse(a, b, ground, row, p0, p1, p2, work)
+        if normal == 0.0 and ratio == 0.0:
+            continue
+        k = row[PENALTY]
+        # A = along (n n) + across (1 - n n - d d), d: direction of the slip
+        along, across = (k if normal != 0.0 else 0.0), ratio * k
+        n0, n1, n2, d0, d1, d2 = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], 0.0, 0.0, 0.0
+        if 0.0 < ratio < 1.0:
+            pressure = row[PRESSURE]
+            d0, d1, d2 = (
+                p0 - normal * n0 - pressure * row[CONE_CENTRE],
+                p1 - normal * n1 - pressure * row[CONE_CENTRE + 1],
+                p2 - normal * n2 - pressure * row[CONE_CENTRE + 2],
+            )
+            size = math.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
+            d0, d1, d2 = d0 / size, d1 / size, d2 / size
+        along -= across
+        stiffness[0] = across + along * n0 * n0 - across * d0 * d0
+        stiffness[1] = along * n0 * n1 - across * d0 * d1
+        stiffness[2] = along * n0 * n2 - across * d0 * d2
+        stiffness[3] = stiffness[1]
+        stiffness[4] = across + along * n1 * n1 - across * d1 * d1
+        stiffness[5] = along * n1 * n2 - across * d1 * d2
+        stiffness[6] = stiffness[2]
+        stiffness[7] = stiffness[5]
+        stiffness[8] = across + along * n2 * n2 - across * d2 * d2
+        if a != ground:
+            _add_stiffness(row, ARM_A, row, ARM_A, stiffness, 1.0, blocks[a, a])
+        if b != ground:
+            _add_stiffness(row, ARM_B, row, ARM_B, stiffness, 1.0, blocks[b, b])
+        if a != ground and b != ground:
+            if a < b:
+                _add_stiffness(row, ARM_A, row, ARM_B, stiffness, -1.0, blocks[a, b])
+            else:
+                _add_stiffness(row, ARM_B, row, ARM_A, stiffness, -1.0, blocks[b, a])
+
+
+@kernel(_t.void(VECTOR, VECTOR, VECTOR), inline=True)
+def _subtract_product(left, right, block):
+    """Subtract U^T V of two blocks from a third."""
+    for k in range(6):
+        for i in range(6):
+            x = left[6 * k + i]
+            for j in range(6):
+                block[6 * i + j] -= x * right[6 * k + j]
+
+
+@kernel(_t.boolean(_t.int64, BLOCK, MATRIX))
+def _factorise(bodies, blocks, work):
+    """Replace the Hessian by its upper Cholesky factor, with inverted diagonal, within its envelope; return whether it is positive."""
+    for i in range(bodies):
+        first = int(work[i, FIRST_NEIGHBOUR])
+        for k in range(first, i):
+            column, diagonal = blocks[k, i], blocks[k, k]
+            for m in range(max(first, int(work[k, FIRST_NEIGHBOUR])), k):
+                _subtract_product(blocks[m, k], blocks[m, i], column)
+            for r in range(6):
+                for q in range(r):
+                    x = diagonal[6 * q + r]
+                    for j in range(6):
+                        column[6 * r + j] -= x * column[6 * q + j]
+                for j in range(6):
+                    column[6 * r + j] *= diagonal[7 * r]
+            _subtract_product(column, column, blocks[i, i])
+        block = blocks[i, i]
+        for r in range(6):
+            if not block[7 * r] > 0.0:
+                return False
+            x = 1.0 / math.sqrt(block[7 * r])
+            block[7 * r] = x
+            for j in range(r + 1, 6):
+                block[6 * r + j] *= x
+            for q in range(r + 1, 6):
+                y = block[6 * r + q]
+                for j in range(q, 6):
+                    block[6 * q + j] -= y * block[6 * r + j]
+    return True
+
+
+@kernel(_t.void(_t.int64, BLOCK, MATRIX))
+def _newton_step(bodies, blocks, work):
+    """Solve for the step against the gradient by forward and back substitution."""
+    for i in range(bodies):
+        x = work[i]
+        for k in range(6):
+            x[STEP + k] = -x[GRADIENT + k]
+        for k in range(int(x[FIRST_NEIGHBOUR]), i):
+            block, y = blocks[k, i], work[k]
+            for r in range(6):
+                for j in range(6):
+                    x[STEP + j] -= block[6 * r + j] * y[STEP + r]
+        block = blocks[i, i]
+        for r in range(6):
+            x[STEP + r] *= block[7 * r]
+            for j in range(r + 1, 6):
+                x[STEP + j] -= block[6 * r + j] * x[STEP + r]
+    for i in range(bodies - 1, -1, -1):
+        x, block = work[i], blocks[i, i]
+        for r in range(5, -1, -1):
+            for j in range(r + 1, 6):
+                x[STEP + r] -= block[6 * r + j] * x[STEP + j]
+            x[STEP + r] *= block[7 * r]
+        for k in range(int(x[FIRST_NEIGHBOUR]), i):
+            block, y = blocks[k, i], work[k]
+            for r in range(6):
+                for j in range(6):
+                    y[STEP + r] -= block[6 * r + j] * x[STEP + j]
+
+
+@kernel(_t.float64(_t.float64, _t.int64, MATRIX), inline=True)
+def _contact_slope(length, n, rows):
+    """Return the part of the slope along the step that the contacts contribute."""
+    slope = 0.0
+    for i in range(n):
+        row = rows[i]
+        d0, d1, d2 = row[SLIP_CHANGE], row[SLIP_CHANGE + 1], row[SLIP_CHANGE + 2]
+        p0, p1, p2, _, _ = _penalty_impulse(
+            row, row[TRIAL_SLIP] + length * d0, row[TRIAL_SLIP + 1] + length * d1, row[TRIAL_SLIP + 2] + length * d2, True
+        )
+        slope -= p0 * d0 + p1 * d1 + p2 * d2
+    return slope
+
+
+@kernel(_t.float64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, MATRIX))
+def _step_length(n, contact_ids, rows, ground, inertias, velocities, work):
+    """Return the length of the step at which the convex function has nearly stopped to fall."""
+    constant, linear, first_slope = 0.0, 0.0, 0.0
+    for i in range(ground):
+        g, v = work[i], velocities[i]
+        for k in range(3):
+            first_slope += g[GRADIENT + k] * g[STEP + k] + g[GRADIENT + 3 + k] * g[STEP + 3 + k]
+            constant += inertias[i, 0] * g[STEP + k] * (v[k] - g[FREE_VELOCITY + k])
+            linear += inertias[i, 0] * g[STEP + k] ** 2
+            for m in range(3):
+                x = g[INERTIA + 3 * k + m] * g[STEP + 3 + k]
+                constant += x * (v[3 + m] - g[FREE_VELOCITY + 3 + m])
+                linear += x * g[STEP + 3 + m]
+    for i in range(n):
+        row = rows[i]
+        row[SLIP_CHANGE], row[SLIP_CHANGE + 1], row[SLIP_CHANGE + 2] = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], row, work)
+    low, high, low_slope = 0.0, 1.0, first_slope
+    high_slope = constant + linear + _contact_slope(1.0, n, rows)
+    if abs(high_slope) <= SLOPE_RATIO * abs(first_slope):
+        return 1.0
+    # the slope rises along the step, as the function is convex: extend until it is positive, then bisect by false position
+    while high_slope < 0.0:
+        if high >= MAX_EXTENSION:
+            return high
+        low, low_slope, high = high, high_slope, 2.0 * high
+        high_slope = constant + high * linear + _contact_slope(high, n, rows)
+    length = high
+    for _ in range(MAX_TRIALS):
+        length = low + (high - low) * low_slope / (low_slope - high_slope)
+        length = min(max(length, low + 0.1 * (high - low)), high - 0.1 * (high - low))
+        slope = constant + length * linear + _contact_slope(length, n, rows)
+        if abs(slope) <= SLOPE_RATIO * abs(first_slope):
+            break
+        if slope < 0.0:
+            low, low_slope = length, slope
+        else:
+            high, high_slope = length, slope
+    return length
+
+
+@kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, _t.float64, MATRIX, BLOCK, MATRIX))
+def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, velocities, blocks, work):
+    """Solve the impulses of `n` contacts; return the number of Newton steps, or 0 without a solution.
+
+    Parameters
+    ----------
+    contact_ids, rows, velocities : arrays
+        As in :func:`~seisblock.models.stack.pgs.solve_pgs`.
+    tolerance : float, m/s
+    blocks, work : (m + 1, m + 1, 36), (m + 1, 28) arrays
+        Scratch: blocks of the Hessian, and rows of the bodies.
+    """
+    _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work)
+    compliance, since_move, has_stalled, max_change = FIRST_COMPLIANCE, 0, False, math.inf
+    for iteration in range(MAX_ITERATIONS):
+        change, penalty_error = _errors(n, contact_ids, rows, ground, inertias, inverses, velocities, work)
+        if max(change, penalty_error) < ACCURACY * tolerance:
+            for i in range(ground):
+                for k in range(6):
+                    velocities[i, k] += work[i, STEP + k]
+            return iteration + 1
+        if iteration == 0:
+            max_change = MAX_GROWTH * max(change, tolerance)
+        if not change < max_change:
+            return 0
+        factor, moves = 1.0, change < max(ACCURACY * tolerance, MOVE_RATIO * penalty_error)
+        if has_stalled and penalty_error < ACCURACY * tolerance:
+            moves = False
+        if moves and (not has_stalled or since_move <= EASY_ITERATIONS):
+            factor = max(COMPLIANCE_FACTOR, MIN_COMPLIANCE / compliance)
+        elif not moves and since_move >= STALLED_ITERATIONS and compliance < MAX_COMPLIANCE:
+            factor, has_stalled = SOFTENING, True
+        if moves or factor != 1.0:
+            compliance *= factor
+            since_move = 0
+            for i in range(n):
+                row = rows[i]
+                if moves:
+                    for k in range(3):
+                        row[PENALTY_CENTRE + k] = row[IMPULSE + k]
+                row[PENALTY] /= factor
+                _, _, _, normal, _ = _penalty_impulse(row, row[TRIAL_SLIP], row[TRIAL_SLIP + 1], row[TRIAL_SLIP + 2], False)
+                row[PRESSURE] = max(normal, 0.0)
+        since_move += 1
+        _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work)
+        if not _factorise(ground, blocks, work):
+            return 0
+        _newton_step(ground, blocks, work)
+        length = _step_length(n, contact_ids, rows, ground, inertias, velocities, work)
+        for i in range(ground):
+            for k in range(6):
+                velocities[i, k] += length * work[i, STEP + k]
+    return 0

@@ -1,0 +1,1 @@
+"""Style, fonts, headings and time histories shared by all figures."""

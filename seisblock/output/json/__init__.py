@@ -1,0 +1,1 @@
+"""Types of JSON documents, entries generated from dataclasses, and the encoder."""

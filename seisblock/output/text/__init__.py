@@ -1,0 +1,1 @@
+"""Tables and sentences for the terminal: number formats, line breaks, headings of records, shaking and thresholds."""

@@ -1,0 +1,410 @@
+"""Measures that make an object safe: least width, largest height, ballast, friction, inset of feet, and restraint."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.friction import SURFACES
+from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.registry import SolverBody
+from seisblock.core.typing import FloatArray, Progress
+from seisblock.records.record import Record
+from seisblock.studies.sampling import ParameterVariation
+from seisblock.studies.scenario.assess import versions_for
+from seisblock.studies.scenario.hazard import RecordFrequencies
+from seisblock.studies.scenario.motions import motion_pairs
+from seisblock.studies.scenario.restraint import case_demands
+from seisblock.studies.scenario.runs import VERSIONS, Pairs, draw_cases, other_side, run_cases
+
+WIDTH, HEIGHT, BASE_MASS, FRICTION, INSET, RESTRAINT = "width", "height", "base_mass", "friction", "inset", "restraint"
+MEASURES = (WIDTH, HEIGHT, BASE_MASS, FRICTION, INSET, RESTRAINT)
+
+COARSE = 16
+"""Values of the first search."""
+
+QUICK_RUNS, FULL_RUNS = 40, 320
+"""Smallest number of runs of a value in the first search, and near the target."""
+
+RESOLUTION = 0.015
+"""Relative width of the interval at which the bisection of a measure ends."""
+
+INSET_RESOLUTION = 0.002
+"""The same of the inset, a share of the width."""
+
+RANGES = {WIDTH: (0.4, 4.0), HEIGHT: (2.0, 0.1), BASE_MASS: (0.0, 20.0), FRICTION: (1.0, 0.02), INSET: (0.45, 0.0)}
+"""First and last value of each search, towards the safe side: factors on width and height, added over own mass, friction, share of the
+width."""
+
+
+@dataclass(frozen=True, repr=False)
+class Measure(DisplayMixin):
+    """One measure that makes an object safe.
+
+    Parameters
+    ----------
+    measure : str
+        ``width``: least width of the base; ``height``: largest height; ``base_mass``: mass added at floor level; ``friction``: largest
+        friction, at which the object slides instead of rocking; ``inset``: largest distance of its feet from each side;
+        ``restraint``: horizontal force at ``height_m``.
+    value : float or None
+        None where the measure does not reach the target.
+    unit : str
+        ``m``, ``kg``, ``1`` or ``N``; a mass or a force of an object of unknown mass is a multiple of its mass or weight, ``1``.
+    overturning_probability : float or None, 1
+        With this value; of a restraint the share of the runs in which the force is exceeded.
+    displacement_m : float or None
+        95 % quantile of the residual displacement with this value.
+    moment : float or None
+        Of a restraint: moment about the edge of the base, N m, or over the weight, m.
+    height_m : float or None
+        Of a restraint: height of its force.
+    foot_slip_probability : float or None, 1
+        Of a restraint: share of the runs in which no force at this height alone holds the object, since its foot slides away.
+    materials : tuple of str
+        Pairs of surfaces with a friction up to the value.
+    curve : tuple of (float, float)
+        Values and probabilities of the search.
+    reason : str or None
+        Reason why a measure does not reach the target.
+    """
+
+    measure: str
+    value: float | None
+    unit: str
+    overturning_probability: float | None
+    displacement_m: float | None = None
+    moment: float | None = None
+    height_m: float | None = None
+    foot_slip_probability: float | None = None
+    materials: tuple[str, ...] = ()
+    curve: tuple[tuple[float, float], ...] = ()
+    reason: str | None = None
+
+
+@dataclass(frozen=True, repr=False)
+class Security(DisplayMixin):
+    """Measures that make an object safe in a scenario.
+
+    Parameters
+    ----------
+    body : str
+    target_probability : float, 1
+    overturning_probability : float, 1
+        Without a measure.
+    runs : int
+        Of each value near the target.
+    measures : tuple of Measure
+    years : float or None
+        Period of the probabilities under a hazard; None in a scenario.
+    """
+
+    body: str
+    target_probability: float
+    overturning_probability: float
+    runs: int
+    measures: tuple[Measure, ...]
+    years: float | None = None
+
+
+def with_base_mass(block: Block, ratio: float) -> Block:
+    """Return a block with a plate as wide as its base and without height at floor level, of `ratio` times its mass.
+
+    Examples
+    --------
+    >>> heavy = with_base_mass(Block(0.4, 1.2, mass=50.0), 1.0)
+    >>> heavy.total_mass, heavy.centre
+    (100.0, 0.3)
+    """
+    mass, centre = block.total_mass, block.centre
+    new_centre = centre / (1.0 + ratio)
+    # parallel axes of the block and of the plate, both about the common centre of gravity
+    block_inertia = mass * (block.gyration_squared + (centre - new_centre) ** 2)
+    plate = ratio * mass * (block.width**2 / 12.0 + new_centre**2)
+    offset = block.centroid_offset / (1.0 + ratio)
+    along = mass * (block.centroid_offset - offset) ** 2 + ratio * mass * offset**2
+    return replace(
+        block, mass=mass * (1.0 + ratio), centroid_height=new_centre, centroid_offset=offset, centroid_inertia=block_inertia + plate + along
+    )
+
+
+def changed_body(body: SolverBody, measure: str, value: float) -> SolverBody:
+    """Return an object with a measure.
+
+    Parameters
+    ----------
+    body : SolverBody
+        With a block.
+    measure : str
+        ``width`` (factor), ``height`` (factor), ``base_mass`` (ratio), ``friction`` or ``inset`` (share of the width).
+    value : float
+    """
+    block: Block = body.body
+    if measure == FRICTION:
+        kinetic = body.options.mu_kinetic
+        scaled = None if kinetic is None or body.options.mu == 0.0 else kinetic * value / body.options.mu
+        options = replace(body.options, mu=value, mu_kinetic=scaled)
+        return replace(body, body=block.without_ranges("mu"), options=options)
+    if measure == WIDTH:
+        ranges = block.ranges
+        if ranges is not None and ranges.inset_m is not None:
+            low, high = ranges.inset_m
+            ranges = replace(ranges, inset_m=(low * value, high * value))
+        width = block.width * value
+        depth = None if block.depth is None else max(block.depth, width)
+        changed = replace(
+            block, width=width, depth=depth, inset=block.inset * value, centroid_offset=block.centroid_offset * value, ranges=ranges
+        )
+    elif measure == HEIGHT:
+        centre = None if block.centroid_height is None else block.centroid_height * value
+        inertia = block.centroid_inertia
+        if inertia is not None:
+            inertia *= (block.width**2 + (value * block.height) ** 2) / (block.width**2 + block.height**2)
+        changed = replace(block, height=block.height * value, centroid_height=centre, centroid_inertia=inertia)
+    elif measure == BASE_MASS:
+        changed = with_base_mass(block, value)
+    else:
+        changed = replace(block.without_ranges("inset_m"), inset=value * block.width)
+    return replace(body, body=changed)
+
+
+def find_measures(
+    body: SolverBody,
+    records: Sequence[Record],
+    target: float,
+    *,
+    frequencies: RecordFrequencies | None = None,
+    restraint_height_m: float | None = None,
+    is_scaled: bool = True,
+    has_mass: bool = False,
+    seed: int = 0,
+    progress: Progress | None = None,
+) -> Security:
+    """Return the measures that reduce the overturning probability of an object to a target.
+
+    The first value of a coarse search from which on all values are safe is refined by bisection to 1.5 %, each value with runs of its own
+    under the same versions.
+
+    Parameters
+    ----------
+    body : SolverBody
+        Of the solver ``respond``, see :func:`~seisblock.studies.scenario.assess.scenario_bodies`.
+    records : sequence of Record
+    target : float, 1
+        Largest overturning probability.
+    frequencies : RecordFrequencies or None
+        Annual frequency of each record, see :func:`~seisblock.studies.scenario.hazard.hazard_suite`; None: all have the same share.
+    restraint_height_m : float or None, m
+        Height of the restraint; default: the height of the object.
+    is_scaled, seed, progress
+        As in :func:`~seisblock.studies.scenario.assess.assess_scenario`.
+    has_mass : bool
+        Whether the mass of the block is known; else masses and forces are multiples.
+
+    Raises
+    ------
+    BodyError
+        If the object is not a block.
+    ParameterError
+        If a number is out of range.
+    """
+    checks.in_interval("the target probability", target, "(0, 1)")
+    if not isinstance(body.body, Block):
+        raise BodyError("{name}: measures require a block with a width and a height; give the sizes of the object", name=body.name)
+    if body.body.depth is not None and body.body.depth < body.body.width:
+        # the width is the side that is changed: the shorter one
+        body = replace(body, body=other_side(body.body))
+    pairs = motion_pairs(records)
+    search = _Search(body, pairs, VERSIONS if is_scaled else ParameterVariation(), seed, frequencies)
+    names = MEASURES[:-1]
+    coarse = {name: (np.linspace(*RANGES[name], COARSE) if name == INSET else _spaced(*RANGES[name])).tolist() for name in names}
+    # few runs of all values find the transition, all runs of the values around it decide
+    answers = search.evaluate([(name, value) for name in names for value in coarse[name]], quick=True, progress=progress)
+    first_safe = {name: _first_safe([answers[name, value][0] for value in coarse[name]], target) for name in names}
+    full = _refine(search, coarse, first_safe, target, progress)
+    measures = []
+    for name in names:
+        rows = sorted(
+            ((value, *answer) for (key, value), answer in (answers | full).items() if key == name),
+            reverse=RANGES[name][0] > RANGES[name][1],
+        )
+        decided = {value for key, value in full if key == name}
+        measures.append(_measure(body, name, rows, decided, target, has_mass=has_mass))
+    height = body.body.height if restraint_height_m is None else checks.positive("the height of the restraint", restraint_height_m, "m")
+    measures.append(_restraint(search, target, height, has_mass=has_mass))
+    years = None if frequencies is None else frequencies.years
+    return Security(body.name, target, search.own_probability(), search.runs, tuple(measures), years)
+
+
+def _refine(
+    search: _Search, coarse: dict[str, list[float]], first_safe: dict[str, int | None], target: float, progress: Progress | None
+) -> dict[tuple[str, float], tuple[float, float]]:
+    """Return the results with all runs of the values that bracket the target, bisected until each bracket is narrow."""
+    full: dict[tuple[str, float], tuple[float, float]] = {}
+    # index of the last value that is not safe: -1 if the search begins safe, one below the last if it ends unsafe
+    last_unsafe = {name: len(values) - 2 if (first := first_safe[name]) is None else first - 1 for name, values in coarse.items()}
+    pending: list[tuple[str, float]] = []
+    while True:
+        for name, values in coarse.items():
+            index = last_unsafe[name]
+            pending += [(name, values[i]) for i in (index, index + 1) if i >= 0]
+        pending = [item for item in dict.fromkeys(pending) if item not in full]
+        if not pending:
+            break
+        full |= search.evaluate(pending, progress=progress)
+        for name, values in coarse.items():
+            index = last_unsafe[name]
+            # all runs may disagree with the few of the first search: the bracket moves by one value
+            if index + 1 < len(values) - 1 and full[name, values[index + 1]][0] > target:
+                last_unsafe[name] = index + 1
+            elif index >= 0 and full[name, values[index]][0] <= target:
+                last_unsafe[name] = index - 1
+        pending = []
+    brackets = {
+        name: (values[index], values[index + 1])
+        for name, values in coarse.items()
+        if (index := last_unsafe[name]) >= 0 and full[name, values[index + 1]][0] <= target
+    }
+    while brackets:
+        middles = {name: _middle(name, *bracket) for name, bracket in brackets.items()}
+        full |= search.evaluate(list(middles.items()), progress=progress)
+        for name, middle in middles.items():
+            unsafe, safe = brackets[name]
+            unsafe, safe = (unsafe, middle) if full[name, middle][0] <= target else (middle, safe)
+            brackets[name] = unsafe, safe
+        brackets = {name: bracket for name, bracket in brackets.items() if not _is_narrow(name, *bracket)}
+    return full
+
+
+def _middle(name: str, unsafe: float, safe: float) -> float:
+    """Return the middle of a bracket: of the logarithms where both ends are positive."""
+    return 0.5 * (unsafe + safe) if name == INSET or min(unsafe, safe) <= 0.0 else math.sqrt(unsafe * safe)
+
+
+def _is_narrow(name: str, unsafe: float, safe: float) -> bool:
+    if name == INSET:
+        return abs(unsafe - safe) <= INSET_RESOLUTION
+    return abs(unsafe - safe) <= RESOLUTION * max(unsafe, safe)
+
+
+class _Search:
+    """Probabilities of an object with measures, under the same versions for all measures."""
+
+    def __init__(
+        self, body: SolverBody, pairs: Pairs, variation: ParameterVariation, seed: int, frequencies: RecordFrequencies | None
+    ) -> None:
+        self.body, self.pairs, self.variation = body, pairs, variation
+        self.weights = frequencies or RecordFrequencies(np.full(len(pairs), 1.0 / len(pairs)), None)
+        versions = max(versions_for(len(pairs)), math.ceil(FULL_RUNS / (2 * len(pairs))))
+        self.draws = draw_cases(len(pairs), checks.seed(seed), versions=versions)
+        self.runs = 2 * versions * len(pairs)
+
+    def evaluate(
+        self, items: Sequence[tuple[str, float]], *, quick: bool = False, progress: Progress | None = None
+    ) -> dict[tuple[str, float], tuple[float, float]]:
+        """Return for each measure and value the overturning probability and the 95 % displacement, m."""
+        bodies = [replace(changed_body(self.body, name, value), name=str(i)) for i, (name, value) in enumerate(items)]
+        cases = max(2, 2 * (QUICK_RUNS // (2 * len(self.pairs)))) if quick else self.draws.shape[1]
+        return self._evaluate(items, bodies, self.draws[:, :cases], progress)
+
+    def own_probability(self) -> float:
+        """Return the overturning probability without a measure, of the samples of ``assess_scenario``."""
+        draws = self.draws[:, : 2 * versions_for(len(self.pairs))]
+        return self._evaluate([("", 0.0)], [self.body], draws, None)["", 0.0][0]
+
+    def _evaluate(
+        self, items: Sequence[tuple[str, float]], bodies: Sequence[SolverBody], draws: FloatArray, progress: Progress | None
+    ) -> dict[tuple[str, float], tuple[float, float]]:
+        results = run_cases(bodies, self.pairs, draws, variation=self.variation, progress=progress)
+        answer = {}
+        for index, item in enumerate(items):
+            # a run that was stopped counts as a fall, on the safe side
+            fell = (results.fell[index] | results.gave_up[index]).any(axis=2)
+            shift = results.shift_m[index].max(axis=2)[~fell]
+            answer[item] = self.weights.probability(fell.mean(axis=1)), float(np.quantile(shift, 0.95)) if shift.size else math.nan
+        return answer
+
+
+def _spaced(first: float, last: float) -> FloatArray:
+    """Return the values of a search: even in the logarithm, or in that of 1 + value from 0."""
+    if first == 0.0:
+        return np.concatenate([[0.0], np.geomspace(0.05, last, COARSE - 1)])
+    return np.geomspace(first, last, COARSE)
+
+
+def _first_safe(shares: Sequence[float], target: float) -> int | None:
+    """Return the index from which on all values are safe; None if the last one is not."""
+    first = None
+    for index in reversed(range(len(shares))):
+        if shares[index] > target:
+            break
+        first = index
+    return first
+
+
+def _measure(
+    body: SolverBody, name: str, rows: Sequence[tuple[float, float, float]], decided: set[float], target: float, *, has_mass: bool
+) -> Measure:
+    """Return a measure from the values of its search, towards the safe side; those with all runs decide."""
+    block: Block = body.body
+    size, unit = {
+        WIDTH: (block.width, "m"),
+        HEIGHT: (block.height, "m"),
+        BASE_MASS: (block.total_mass, "kg") if has_mass else (1.0, "1"),
+        FRICTION: (1.0, "1"),
+        INSET: (block.width, "m"),
+    }[name]
+    curve = tuple((value * size, share) for value, share, _ in rows)
+    rows = [row for row in rows if row[0] in decided]
+    first = _first_safe([share for _, share, _ in rows], target)
+    if first is None:
+        return with_reason(Measure(name, None, unit, None, curve=curve))
+    value, share, shift = rows[first]
+    materials = tuple(pair for pair, item in SURFACES.items() if item.mu <= value) if name == FRICTION else ()
+    return Measure(name, value * size, unit, share, None if math.isnan(shift) else shift, materials=materials, curve=curve)
+
+
+def _restraint(search: _Search, target: float, height_m: float, *, has_mass: bool) -> Measure:
+    """Return the force of a restraint that is exceeded with the target probability over the runs."""
+    body, weights = search.body, search.weights
+    moments, forces, slides = case_demands(body, search.pairs, search.draws, height_m=height_m, variation=search.variation)
+    block: Block = body.body
+    factor, unit = (block.total_mass, "N") if has_mass else (1.0 / body.options.gravity, "1")
+    levels = np.unique(forces).tolist()
+    exceeded = [weights.probability((forces > level).mean(axis=1)) for level in levels]
+    curve = tuple((level * factor, share) for level, share in zip(levels, exceeded, strict=True))
+    # the smallest of the computed demands that is exceeded with at most the target probability
+    index = next(i for i, share in enumerate(exceeded) if share <= target)
+    moment = next(level for level in np.unique(moments).tolist() if weights.probability((moments > level).mean(axis=1)) <= target)
+    return Measure(
+        RESTRAINT,
+        levels[index] * factor,
+        unit,
+        exceeded[index],
+        0.0,
+        moment=moment * factor,
+        height_m=height_m,
+        foot_slip_probability=weights.probability(slides.mean(axis=1)),
+        curve=curve,
+    )
+
+
+def with_reason(measure: Measure) -> Measure:
+    """Return a measure that does not reach the target, with the reason: its probability at the end of the search."""
+    (value, share), name = measure.curve[-1], measure.measure
+    if name == BASE_MASS:
+        reason = lazy_gettext("target not reached: still {share:.0f} % with the greatest ballast searched", share=100.0 * share)
+    elif name == INSET:
+        reason = lazy_gettext("target not reached: still {share:.0f} % with feet at the very edge", share=100.0 * share)
+    elif name == FRICTION:
+        reason = lazy_gettext("target not reached: still {share:.0f} % at {value:.2g}", share=100.0 * share, value=value)
+    else:
+        reason = lazy_gettext("target not reached: still {share:.0f} % at {value:.0f} cm", share=100.0 * share, value=100.0 * value)
+    return replace(measure, reason=reason)

@@ -1,0 +1,104 @@
+"""Forms of the local page: arguments of commands from the values of fields."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.app import forms
+from seisblock.app.views import python_lines
+from seisblock.cli import main
+from seisblock.core.errors import ParameterError
+from seisblock.models.respond.options import RespondOptions
+from seisblock.studies.scenario.assess import UNKNOWN_FRICTION
+
+
+def test_sizes_without_unit_are_centimetres_and_a_bare_block_names_no_kind():
+    form = {"object": "sizes:block", "width": "45", "height": "1.8 m", "mu": "0.3"}
+    assert forms.body_arguments(form) == ["--width", "45cm", "--height", "1.8 m", "--mu", "0.3"]
+
+
+def test_sizes_of_a_kind_name_it():
+    assert forms.body_arguments({"object": "sizes:statue", "width": "4", "height": "9"})[-2:] == ["--kind", "statue"]
+
+
+def test_bundled_body_with_its_own_values_is_named_so_that_its_ranges_apply():
+    body = forms.find_body("bookcase")
+    width, height = forms.size_texts(body)
+    form = {"object": "bookcase", "width": width, "height": height, "mu": forms.number_text(body.mu)}
+    assert forms.body_arguments(form) == ["--block", "bookcase"]
+    assert forms.body_arguments({**form, "mu": "0.25"}) == ["--block", "bookcase", "--mu", "0.25"]
+    assert forms.body_arguments({**form, "width": "40"})[:6] == ["--width", "40cm", "--height", f"{height}cm", "--kind", "furniture"]
+
+
+def test_file_of_an_object_is_required_where_it_was_chosen():
+    with pytest.raises(ParameterError, match="no file of an object"):
+        forms.body_arguments({"object": forms.FILE})
+    assert forms.body_arguments({"object": forms.FILE}, ("pine.toml",)) == ["--block", "pine.toml"]
+
+
+@pytest.mark.parametrize(("height", "expected"), [("0", []), ("", []), ("0.5", ["--floor", "T=0.5,height=0.5"])])
+def test_floor_motion_only_above_the_ground(height, expected):
+    assert forms.floor_arguments({"floor": height}) == expected
+
+
+def test_fields_of_solver_options_follow_the_dataclass():
+    names = {field.name for field in forms.solver_fields()}
+    assert names == {"mu_kinetic", "restitution", "rocking_restitution", "vertical", "gravity", "settle_s", "tenon"}
+    assert names < set(RespondOptions.__dataclass_fields__)
+    line = forms.solver_arguments({"option-vertical": "no", "option-restitution": " 0.2 ", "option-gravity": ""})
+    assert line == ["--restitution", "0.2", "--no-vertical"]
+
+
+def test_object_of_a_scenario_is_a_table_or_a_bundled_name(tmp_path):
+    assert forms.write_scenario_object({}, ["--block", "statue"], tmp_path) == "statue"
+    name = forms.write_scenario_object({}, ["--width", "45cm", "--height", "180cm", "--surface", "wood/wood"], tmp_path)
+    assert (tmp_path / name).read_text().splitlines() == ["name,width,height,kind,mu", "object,45cm,180cm,block,0.5"]
+
+
+def test_report_keeps_record_body_friction_and_floor():
+    line = ("respond", "a.NS", "a.EW", "--width", "45cm", "--height", "180cm", "--surface", "wood/wood", "--floor", "T=0.5,height=1")
+    assert forms.report_arguments((*line, "--no-vertical")) == (
+        "report", "a.NS", "a.EW", "--body", "45cmx180cm", "--mu", "0.5", "--mu-kinetic", "0.3", "--floor", "T=0.5,height=1",
+    )  # fmt: skip
+
+
+def test_python_lines_exist_only_where_they_give_the_same():
+    sizes = ("--width", "45cm", "--height", "1.8m")
+    assert "seisblock.Block(0.45, 1.8)" in python_lines(("respond", "a.csv", *sizes, "--mu", "0.3"))
+    assert python_lines(("respond", "a.csv", *sizes, "--mu", "0.3", "--restitution", "0.2")) == ""
+    assert python_lines(("respond", "a.csv", *sizes, "--surface", "wood/wood")) == ""
+    assert python_lines(("respond", "a.csv", "--block", "bookcase")) == ""
+    assert python_lines(("respond", "a.NS", "a.EW", *sizes, "--mu", "0.3")) == ""
+
+
+@pytest.mark.slow
+def test_python_lines_print_the_probability_of_the_command(capsys):
+    line = ("respond", "hanmer_springs_2016", "--width", "40cm", "--height", "180cm", "--kind", "gravestone", "--mu", "0.3")
+    exec(python_lines(line), {})
+    printed = float(capsys.readouterr().out)
+    result = CliRunner().invoke(main, [*line, "--json", "--quiet"])
+    rows = json.loads(result.stdout)["results"]
+    assert printed == max(row["assessment"]["overturning_probability"] for row in rows) > 0.0
+
+
+def test_scenario_of_a_collection_is_an_intensity_a_peak_or_the_record_of_the_first_tab():
+    assert forms.scenario_arguments({}, ()) == ("--jma", "6+")
+    assert forms.scenario_arguments({"scenario": "5-", "pga": "300", "pgv": "20", "floor": "1"}, ()) == (
+        "--pga", "300", "--pgv", "20", "--floor", "T=0.5,height=1",
+    )  # fmt: skip
+    assert forms.scenario_arguments({"scenario": "record"}, ("a.csv",)) == ("a.csv",)
+    with pytest.raises(ParameterError, match="no record in the first tab"):
+        forms.scenario_arguments({"scenario": "record"}, ())
+
+
+def test_friction_that_the_map_assumes_is_that_of_a_scenario():
+    assert forms.UNKNOWN_FRICTION == UNKNOWN_FRICTION
+
+
+def test_stations_get_a_body_with_its_friction_or_a_cemetery():
+    assert forms.event_arguments({"event-object": "bookcase"}, None) == ("--block", "bookcase")
+    assert forms.event_arguments({"event-object": "bookcase", "event-mu": "0.2"}, None) == ("--block", "bookcase", "--mu", "0.2")
+    assert forms.event_arguments({"event-object": "survey"}, "mine.csv") == ("--cemetery", "mine.csv")
+    with pytest.raises(ParameterError, match="no sheet in the tab of the survey"):
+        forms.event_arguments({"event-object": "survey"}, None)

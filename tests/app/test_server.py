@@ -1,0 +1,216 @@
+"""Server of the local page without a browser: safety, languages, escaping, errors."""
+
+import asyncio
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+from typing import ClassVar
+
+import httpx
+import pytest
+from click.testing import CliRunner
+from openpyxl import load_workbook
+from starlette.testclient import TestClient
+
+from seisblock.app import server, uploads, views
+from seisblock.app.jobs import Job, JobState
+from seisblock.cli import app as command
+from seisblock.cli import main
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import use_locale
+
+IDS = [
+    *("record-input", "object-select", "width-input", "height-input", "mu-input", "run", "cancel"),
+    *("tab-object", "tab-survey", "tab-collection", "tab-event"),
+]
+
+
+@pytest.fixture
+def client(tmp_path):
+    """Client of the page without lifespan: no worker is started."""
+    return TestClient(server.create_app(tmp_path, "en"), base_url=f"http://{server.HOST}")
+
+
+def tab_address(client):
+    return re.search(r"/t/[\w-]+", client.get("/").text)[0]
+
+
+def test_page_has_the_elements_of_its_contract_in_both_languages(client):
+    for language, word in (("en", "Ground motion"), ("ja", "地震動")):
+        text = client.get("/", params={"lang": language}).text
+        assert f'<html lang="{language}">' in text and word in text
+        assert [name for name in IDS if f'data-testid="{name}"' not in text] == []
+
+
+def test_page_loads_nothing_from_outside(client):
+    text = client.get("/").text
+    assert re.findall(r'(?:src|href)="(?!/)', text) == []
+    assert "default-src 'none'" in client.get("/").headers["content-security-policy"]
+
+
+@pytest.mark.parametrize(("host", "status"), [("evil.example", 400), ("127.0.0.1.evil.example:8765", 400), ("localhost:8765", 200)])
+def test_foreign_host_header_is_refused(client, host, status):
+    assert client.get("/", headers={"Host": host}).status_code == status
+
+
+def test_request_of_a_foreign_origin_is_refused(client):
+    address = tab_address(client) + "/cancel/object"
+    assert client.post(address, headers={"Origin": "http://evil.example"}).status_code == 403
+    assert client.post(address, headers={"Sec-Fetch-Site": "cross-site"}).status_code == 403
+    assert client.post(address, headers={"Origin": f"http://{server.HOST}"}).status_code == 200
+
+
+@pytest.mark.parametrize(("size", "status"), [(uploads.MAX_UPLOAD_BYTES, 200), (200_000_000, 413)])
+def test_declared_length_of_200_mb_is_refused_before_the_body_is_read(client, size, status):
+    headers = {"Content-Type": "application/x-www-form-urlencoded", "Content-Length": str(size)}
+    response = client.post(tab_address(client) + "/record", content=b"source=upload", headers=headers)
+    assert response.status_code == status
+    assert ("at most 200 MB" in response.text) == (status == 413)
+
+
+def test_body_limit_hands_on_no_chunk_above_it_and_answers_after_the_rest():
+    """A browser that still sends reads no answer."""
+    chunks = iter([b"12345", b"67890", b"1", b""])
+    handed_on, answers = [], []
+
+    async def receive():
+        chunk = next(chunks)
+        return {"type": "http.request", "body": chunk, "more_body": bool(chunk)}
+
+    async def read_all(scope, receive, send):
+        with pytest.raises(uploads.UploadTooLargeError):
+            while True:
+                handed_on.append((await receive())["body"])
+        await send({"type": "http.response.start", "status": 413})
+
+    async def send(message):
+        answers.append((message["status"], list(chunks)))
+
+    asyncio.run(uploads.BodyLimit(read_all, limit=9)({"type": "http", "headers": []}, receive, send))
+    assert handed_on == [b"12345"]
+    assert answers == [(413, [])]
+
+
+def test_errors_of_input_are_sentences_and_an_unknown_address_leads_to_a_new_page(client):
+    address = tab_address(client)
+    response = client.post(address + "/record", data={"source": "motion", "motion": "--csv=x"})
+    assert 'data-testid="error"' in response.text and "is not an analytic motion" in response.text
+    for path in ("/t/unknown/alive", address + "/files/object/secret", address + "/report"):
+        assert client.get(path, follow_redirects=False).headers["location"] == "/", path
+
+
+def test_intensity_stands_for_a_record(client):
+    text = client.post(tab_address(client) + "/record", data={"source": "intensity", "intensity": "6+"}).text
+    assert 'data-testid="record-summary"' in text and "6 upper" in text
+
+
+def finished_job(tmp_path, document, stderr="", line=("measure",)):
+    job = Job(line, {"--plot": "figure.png"}, tmp_path, tmp_path, "en", JobState.DONE)
+    (tmp_path / "stdout.txt").write_text(json.dumps(document), encoding="utf-8")
+    (tmp_path / "stderr.txt").write_text(stderr, encoding="utf-8")
+    return job
+
+
+class FakeTab:
+    token, locale, intensity, columns, record = "t", "en", "", (), ("a.csv",)
+    serials = dict.fromkeys(views.KINDS, 1)
+    sheets: ClassVar = {"survey": "a.csv"}
+
+
+def test_record_summary_escapes_names_and_leaves_out_lines_on_output_files(tmp_path):
+    hostile = "<script>alert(1)</script>"
+    record = {
+        "station": hostile, "station_name": hostile, "source": hostile, "start": None, "local_start": None, "earthquake": None,
+        "dt_s": 0.01, "samples": 100, "epicentral_distance_km": None, "checks": {"proved": ["count"], "assumed": []},
+    }  # fmt: skip
+    document = {"record": record, "results": [{"component": hostile, "pga_m_s2": 1.0, "pgv_m_s": 0.1, "jma_intensity": None}]}
+    job = finished_job(tmp_path, document, f"warning: {hostile}\nwrote {tmp_path}/figure.png\n")
+    text = views.record_summary(FakeTab, job)
+    assert "<script" not in text and "&lt;script&gt;" in text
+    assert "wrote" not in text and "sample count" in text
+
+
+def test_object_result_shows_the_greatest_probability_of_the_directions(tmp_path):
+    base = {"interval": [0.1, 0.2], "runs": 200, "moved_probability": 0.5, "models": [], "least_factor": None, "greatest_factor": None,
+            "predictable_until_s": None, "class": "may overturn"}  # fmt: skip
+    rows = [{"assessment": {**base, "overturning_probability": p, "direction": d}} for p, d in ((0.145, "NS"), (0.155, "EW"))]
+    text = views.object_result(FakeTab, finished_job(tmp_path, {"results": rows}, line=("respond", "a.csv", "--block", "statue")))
+    assert 'data-value="0.155">15.5' in text and "EW: may overturn" in text
+    assert "seisblock respond a.csv --block statue" in text
+
+
+def test_survey_without_bounds_and_collection_show_their_documents_in_japanese(tmp_path):
+    tab = FakeTab()
+    stone = {"id": "<b>", "width_m": 0.24, "height_m": 0.72, "probability": 0.82, "overturns": True, "observed": False, "agrees": False}
+    estimate = {
+        "fallen": 1, "standing": 3, "pga_m_s2": None, "pga_interval_m_s2": [None, 4.0], "pgv_m_s": None, "pgv_interval_m_s": [None, 0.5],
+        "jma_intensity": None, "jma_classes": [None, "5-"], "jma_class_by_rule": None, "each_stone": [stone],
+        "contingency": {"both": 0, "computed_only": 1, "observed_only": 0, "neither": 0},
+    }  # fmt: skip
+    risk = {"body": "vase", "class": "may overturn", "overturning_probability": 0.3, "interval": [0.2, 0.4], "moved_probability": 0.5,
+            "failure": None, "advice": ["Keep people, exits and fragile objects 1.8 m away until then."]}  # fmt: skip
+    with use_locale("ja"):
+        survey = views.survey_result(tab, finished_job(tmp_path, {"results": [estimate]}, line=("infer", "--cemetery", "a.csv")))
+        job = finished_job(tmp_path, {"results": [risk]}, line=("scenario", "--jma", "6+"))
+        job.outputs = {"--csv": "table.csv"}
+        (tmp_path / "table.csv").write_text("\ufeffadvice,reason\n1.8 m 離してください。,\n", encoding="utf-8")
+        collection = views.collection_result(tab, job)
+    assert "25 %（4 基中 1 基）".replace(" ", "\N{NO-BREAK SPACE}", 1) in survey and "&lt;b&gt;" in survey
+    assert "1.8" in collection and "Keep people" not in collection and 'data-testid="secure-0"' in collection
+
+
+@pytest.mark.parametrize(
+    ("stderr", "sentence"),
+    [
+        ("note\nseisblock: a.csv: no numbers\n", "a.csv: no numbers"),
+        ("Usage: x\n\nError: Invalid value for '--mu': 'x' is not a number\n", "Invalid value for '--mu': 'x' is not a number"),
+        ("", "the computation ended without a message"),
+    ],
+)
+def test_error_of_a_job_is_the_sentence_of_the_command(tmp_path, stderr, sentence):
+    assert finished_job(tmp_path, {}, stderr).error.startswith(sentence)
+
+
+def test_command_without_the_extra_says_what_to_install(monkeypatch):
+    monkeypatch.setattr(command, "find_spec", lambda name: None)
+    result = CliRunner().invoke(main, ["app"])
+    assert result.exit_code == 3 and "pip install 'seisblock[app]'" in result.output
+
+
+def test_bind_listens_on_this_computer_only_and_names_a_used_port():
+    with socket.socket() as listener:
+        listener.bind((server.HOST, 0))
+        listener.listen()
+        port = listener.getsockname()[1]
+        with pytest.raises(ParameterError, match=f"port {port} is in use"):
+            server.bind(port)
+    with server.bind(None) as free:
+        assert free.getsockname()[0] == server.HOST
+
+
+def test_workbook_holds_numbers_and_texts_of_the_table_and_no_formula(tmp_path):
+    (tmp_path / "table.csv").write_text("\ufeffbody,share\n=1+1,0.25\n墓石,\n", encoding="utf-8")
+    server.write_workbook(tmp_path / "table.csv", tmp_path / "table.xlsx")
+    sheet = load_workbook(tmp_path / "table.xlsx").active
+    assert [[cell.value for cell in row] for row in sheet.rows] == [["body", "share"], ["=1+1", 0.25], ["墓石", None]]
+    assert sheet["A2"].data_type == "s"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 143)])
+def test_uploads_are_in_a_private_temporary_folder_that_is_gone_at_the_end(tmp_path, number, code):
+    line = [sys.executable, "-m", "seisblock", "app", "--no-browser", "--lang", "en"]
+    with subprocess.Popen(line, stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": str(tmp_path)}) as process:
+        address = next(word for text in process.stderr for word in text.split() if word.startswith("http"))
+        with httpx.Client(base_url=address, timeout=60.0) as remote:
+            tab = tab_address(remote)
+            remote.post(f"{tab}/record", data={"source": "upload"}, files={"upload": ("../note.csv", b"1,2\n" * 10)}).raise_for_status()
+        (upload,) = tmp_path.glob("seisblock-app-*/*/files/*")
+        assert upload.name == "note.csv" and upload.parents[2].stat().st_mode & 0o077 == 0
+        process.send_signal(number)
+        assert process.wait(30) == code
+    assert list(tmp_path.glob("seisblock-app-*")) == []
