@@ -56,6 +56,8 @@ def update_interior_extrema(c, i, degree, h, start_time, extrema, rate, q, d):
     for sign in (1.0, -1.0):
         for k in range(degree):
             rate[k] = sign * (k + 1) * c[i, k + 1]
+        # a derivative that starts below zero has no maximum ahead in this pass: the crossing is then at zero and is
+        # ignored
         offset = first_crossing(rate, degree - 1, h, q, d)
         if offset > 0.0:
             update_extrema(extrema, i, evaluate_row(c, i, degree, offset), start_time + offset)

@@ -115,6 +115,7 @@ def _store_dwell_time(output, mode, clock, time):
     """Add the time since the last event to the dwell times of a mode and restart the clock."""
     if output.dwell_times.shape[0] > 0:
         dwell_time = time - clock[MODE_START]
+        # the longest stay is that between two events: a rebound into the same mode ends it
         output.dwell_times[mode, TOTAL] += dwell_time
         output.dwell_times[mode, LONGEST] = max(output.dwell_times[mode, LONGEST], dwell_time)
     clock[MODE_START] = time
@@ -158,6 +159,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     segment_start = counters[SEGMENT_START]
     last = acceleration.shape[1] - 1
     order = shape.order
+    # models with floors append one floor per state to their parameters
     floors = p.size - y.size if shape.has_floors else -1
     stores_path = output.path.shape[0] > 0
     stores_events = times.size > 0
@@ -195,6 +197,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 if stores_path:
                     for row in range(sample + 1, next_sample + 1):
                         _store_sample(output, row, y, mode)
+                # skipped samples count against the slice, so that a long record at rest can still be interrupted
                 steps_left -= 1 + (next_sample - sample) // SKIPPED_PER_STEP
                 sample = next_sample
                 continue
@@ -212,6 +215,8 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             h = remaining
             if degree >= order:
                 h = step_length(c, y.size, order, remaining, p, floors)
+                # a remainder this short is allowed to end the interval; a step this short elsewhere means that the
+                # series does not converge
                 if h < 1e-12 * dt and remaining > 1e-12 * dt:
                     status = STEP_TOO_SMALL
                     break
@@ -227,9 +232,13 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 if tau + h > tau:
                     n_simultaneous = 0
                     grazing = 0
+            # compared before tau changes: h is `remaining` itself if nothing has shortened the step, so that equality
+            # is exact
             at_sample = h == remaining
             tau += h
             # resets and the next series need the ground motion at the end of the step
+            # a full interval needs no update: `read_forcing` starts anew at the next sample, without accumulated
+            # round-off
             if not at_sample or guard >= 0:
                 for row in range(f.shape[0]):
                     f[row, 0] += f[row, 1] * h
@@ -240,6 +249,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                         status = TOO_MANY_EVENTS
                         break
                     _store_limit(output, n_events - n_flushed, 0, y)
+                # a guard negative without any step is a tie or a violated limit, not a crossing
                 below = h == 0.0 and g[guard, 0] < 0.0
                 if below:
                     # no step was made: column 0 of the series is free for a copy of the state
@@ -272,6 +282,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                     transition_counts[guard, next_mode] += 1
                 n_events += 1
                 mode = next_mode
+                # terminal modes are negative
                 if mode < 0:
                     status = STOPPED
                     break
@@ -297,6 +308,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
         status = PAUSED
     if status == RECORD_ENDED:
         _store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
+    # state of a pause: the next call continues from here, bit by bit
     counters[SAMPLE], counters[MODE], counters[N_EVENTS], counters[N_SIMULTANEOUS], counters[STEPS_LEFT] = (
         segment_start + sample,
         mode,

@@ -101,6 +101,7 @@ def integrate(
     path, modes = (np.empty((motion.samples, n_states)), np.empty(motion.samples, dtype=np.int64)) if stores_path else _empty_path(n_states)
     capacity = _INITIAL_EVENT_CAPACITY if keep_events else 0
     while True:
+        # a copy: the kernel advances the state in place, and a restart with larger tables needs the original
         state = initial_state(start, mode, np.array(initial, dtype=np.float64))
         output = Output(path, modes, *allocate_events(capacity, n_states), extrema, _NO_TRANSITION_COUNTS, _NO_DWELL_TIMES)
         status, logs = PAUSED, list[EventLog]()
@@ -161,12 +162,14 @@ class _Integration:
         state.counters[SEGMENT_START], state.counters[SAMPLES_AFTER] = segment.first, segment.samples_after
         last = segment.first + segment.acceleration.shape[1] - 1
         status = PAUSED
+        # a segment that is followed by another one ends at its last sample, which is the first of the next
         while status == PAUSED and (state.counters[SAMPLE] < last or not segment.samples_after):
             check_cancelled()
             state.counters[STEPS_LEFT] = STEPS_PER_SLICE
             status = hybrid.integrate_kernel(*self.model.pointers, forcing, self.model.shape, self.p, state, output)
             # paused because of half-full tables, not because of the steps
             if status == PAUSED and 2 * (state.counters[N_EVENTS] - state.counters[N_FLUSHED]) > output.times.size > 0:
+                # the limit grows with the record: long ones may have more events
                 if state.counters[N_EVENTS] > max(_MAX_EVENTS, _MAX_EVENTS_PER_SAMPLE * self.motion.samples):
                     return TOO_MANY_EVENTS
                 check_memory(N_("mode changes"), int(state.counters[N_EVENTS]), bytes_per_event(state.state.size))

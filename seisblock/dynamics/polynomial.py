@@ -46,6 +46,7 @@ def lower_bound(c, degree, h):
     """Return a lower bound of a polynomial on [0, h]: the lower end of its linear part minus the absolute higher terms."""
     if degree == 0:
         return c[0]
+    # the linear part attains its minimum at an end of the interval
     bound = min(c[0], c[0] + c[1] * h)
     power = h
     for k in range(2, degree + 1):
@@ -87,12 +88,14 @@ def _bracketed_root(c, degree, high):
 
     Safeguarded Newton iteration. It starts from the root of the quadratic part and ends at a relative step below ``NEWTON_TOLERANCE``.
     """
+    # a reset may leave the guard at zero
     if c[0] <= 0.0:
         return 0.0
     # start from the root of the quadratic part, in the form without cancellation
     low = 0.0
     t = high
     if degree > 1:
+        # without a real root of the quadratic part, the end of the bracket is the first guess
         discriminant = c[1] * c[1] - 4.0 * c[0] * c[2]
         if discriminant >= 0.0:
             guess = 2.0 * c[0] / (np.sqrt(discriminant) - c[1])
@@ -110,6 +113,7 @@ def _bracketed_root(c, degree, high):
         else:
             high = t
         next_t = t - value / slope if slope != 0.0 else t
+        # Newton converges quadratically: the error that remains is of the order of the square of this step
         if value == 0.0 or (slope != 0.0 and abs(next_t - t) <= NEWTON_TOLERANCE * t):
             return min(max(next_t, low), high)
         # Newton left the bracket: bisect
@@ -161,6 +165,7 @@ def first_negative(g, degree, h, round_off, q, d):
         power *= h
     if leading > degree:
         return NO_CROSSING
+    # negative beyond doubt from the start, for example after a jump of the input
     if g[0] < -noise:
         return 0.0
     if g[leading] < 0.0:
@@ -171,6 +176,7 @@ def first_negative(g, degree, h, round_off, q, d):
     for k in range(n + 1):
         q[k] = g[leading + k]
     # march over [0, h], halving the interval while the bounds are inconclusive
+    # dividing by t^leading scales the values by h^leading, and the noise with them
     noise = round_off * total / power
     start = 0.0
     width = h
@@ -187,9 +193,11 @@ def first_negative(g, degree, h, round_off, q, d):
                 continue
             if evaluate(q, n, width) < -noise:
                 root = start + _bracketed_root(q, n, width)
+                # a root closer to the start than the resolution of time belongs to the instant itself
                 return 0.0 if root < smallest else min(root, h)
         start += width
         if start < h:
+            # the next interval has its origin at its own start, where the bound on the coefficients is sharp
             shift(q, n, width)
         width = h - start
     return NO_CROSSING

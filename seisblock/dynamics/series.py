@@ -23,6 +23,7 @@ def sine_cosine(f, s, c, k):
     sine = 0.0
     cosine = 0.0
     for j in range(1, k + 1):
+        # f' has the coefficients j f_j: the chain rule gives sine and cosine together, without evaluating either
         rate = j * f[j]
         sine += rate * c[k - j]
         cosine -= rate * s[k - j]

@@ -18,6 +18,7 @@ TRUNCATION = 1.1e-16
 @kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64, VECTOR, _t.int64))
 def step_length(c, n_states, order, h, p, floors):
     """Return the step length up to `h` at which the series has converged; `floors` is the index of the floors in `p`, or -1."""
+    # the last two terms are tested, since the series of an even or odd state has zeros in between
     # h^(order - 1), scales the last two terms
     top = 1.0
     for _ in range(order - 1):
@@ -62,8 +63,10 @@ def first_guard_crossing(scratch, shape, degree, h):
     g = scratch.g
     guard = -1
     for k in range(shape.guards):
+        # a polynomial bounded away from zero needs no root search: this is the usual case
         if g[k, 0] == OFF or lower_bound_of_row(g, k, degree, h) > 0.0:
             continue
+        # guards that are states are reset to exact zeros; all others carry the round-off of their sum
         crossing = first_negative(g[k], degree, h, 0.0 if k < shape.sharp else ROUND_OFF, scratch.q, scratch.d)
         # the step is shortened to the earliest crossing; of simultaneous ones the first guard is kept
         if crossing != NO_CROSSING and (guard < 0 or crossing < h):

@@ -171,6 +171,7 @@ def _run_batch(
         template, initial_states = params[0], np.array([row_params.state(initial) for row_params in params])
     model = template.model
     duration = (motion.samples - 1) * motion.dt
+    # a failed row must not fail the others: it is reported, and excluded from what follows
     record_run = integrate_many(
         model, motion, _parameter_rows(params, motion.dt, duration), initial_states, template.first_mode, gains=gains, allow_failures=True
     )

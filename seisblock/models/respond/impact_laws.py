@@ -40,6 +40,8 @@ def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
     normal = 0.0
     tangential = 0.0
     if has_tenon:
+        # the tenon stops the slip first; through tn this changes u, which may end the approach before any normal
+        # impulse acts
         tangential = -v / tt
         u -= tn / tt * v
         v = 0.0
@@ -47,16 +49,21 @@ def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
             return normal, tangential, u, v
     target = UNREACHED
     compresses = True
+    # s: direction of slip, 0 in stick. Friction opposes it along the path, not only at its ends: Routh's path handles
+    # a slip that stops or reverses within the impact.
     s = 1.0 if v > 0.0 else -1.0 if v < 0.0 else 0.0
     for _ in range(MAX_SEGMENTS):
         # dT/dP of the segment: slip at the friction limit, or the ratio that keeps v = 0 if friction allows
         ratio = -s * mu
         if s == 0.0:
             ratio = -tn / tt
+            # stick needs an impulse ratio inside the friction cone; otherwise the slip resumes in the direction in
+            # which tn P drives v
             if not has_tenon and abs(tn) > mu * tt:
                 s = 1.0 if tn > 0.0 else -1.0
                 ratio = -s * mu
         du = nn + tn * ratio
+        # exactly zero in stick, so that the round-off of tn + tt ratio cannot restart a slip
         dv = tn + tt * ratio if s != 0.0 else 0.0
         step = target - normal
         stops = False
@@ -65,6 +72,8 @@ def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
             if to_stop <= step:
                 step = to_stop
                 stops = True
+        # maximum compression, u = 0. Where du <= 0 the slip still compresses the contact (above Painleve's limit) and
+        # only the stick that follows can turn it.
         turns = compresses and du > 0.0 and -u / du < step
         if turns:
             step = -u / du
@@ -76,6 +85,8 @@ def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
         if stops:
             s = 0.0
         elif turns:
+            # Poisson: the impulse of restitution is e times that of compression, whatever the path. Newton's ratio of
+            # velocities could create energy here.
             u = 0.0
             target = (1.0 + restitution) * normal
             compresses = False
@@ -111,6 +122,7 @@ def resolve_jam(right, theta, omega, v, restitution, p):
     rx, ry = corner_position(right, theta, p)
     k = p[GYRATION]
     nn, tt, tn = 1.0 + rx * rx / k, 1.0 + ry * ry / k, -rx * ry / k
+    # v = 0 gives T = -(v + tn P)/tt; inserted in u = nn P + tn T = 0, this yields P at maximum compression
     mobility = nn - tn * tn / tt
     compression = tn * v / (tt * mobility)
     normal = (1.0 + restitution) * compression
@@ -149,7 +161,11 @@ def both_corners_impact(omega, rise, speed, p, has_tenon):
         s = 1.0 if speed > 0.0 else -1.0
         sticks = has_tenon or abs(speed) <= mu * normal
         tangential = -speed if sticks else -s * mu * normal
+        # moment balance for theta' = 0 after the impact: the resultant acts at (k^2 theta' - h T)/P, which must lie
+        # on the base. Both sides are multiplied by P, so that P = 0 needs no division.
         moment = k * omega - h * tangential
+        # a resultant exactly at a corner satisfies this case and that of the corner alone, with the same impulses;
+        # round-off must not reject both
         edge = ROUND_OFF * (abs(k * omega) + abs(h * tangential))
         if -p[ARM_LEFT] * normal - edge <= moment <= p[ARM_RIGHT] * normal + edge:
             slip_after = 0.0 if sticks else speed + tangential
@@ -159,6 +175,7 @@ def both_corners_impact(omega, rise, speed, p, has_tenon):
     for side in range(2):
         right = side == 0
         rx = corner_offset(right, p)
+        # sense of rotation that lifts the other corner
         opening = 1.0 if right else -1.0
         u = rise - rx * omega
         nn, tt, tn = 1.0 + rx * rx / k, 1.0 + ry * ry / k, -rx * ry / k
@@ -174,6 +191,8 @@ def both_corners_impact(omega, rise, speed, p, has_tenon):
                 normal = -u / (nn - s * mu * tn)
                 tangential = -s * mu * normal
                 slip_after = v + tn * normal + tt * tangential
+                # the slip must keep its direction, and the normal mobility along the cone be positive: with a
+                # negative one, a separating corner would be given an impulse
                 fits = not has_tenon and s * slip_after > 0.0 and nn - s * mu * tn > 0.0
             omega_after = omega + (ry * tangential - rx * normal) / k
             if fits and normal >= 0.0 and opening * omega_after >= 0.0:

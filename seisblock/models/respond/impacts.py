@@ -92,7 +92,9 @@ def lift_off(right, rate, y, p):
     theta = y[THETA]
     omega = y[OMEGA]
     base_width = corner_offset(right, p) - corner_offset(not right, p)
+    # SPEED changes its meaning: slip velocity of the corner in contact, velocity of the centre of gravity in flight
     y[SPEED] -= corner_position(right, theta, p)[1] * omega
+    # height of the other corner above this one; the signs of `base_width` and of the tilt agree for either corner
     gap = base_width * math.sin(theta)
     other_rate = rate + base_width * math.cos(theta) * omega
     y[GAP_RIGHT], y[RATE_RIGHT] = (0.0, rate) if right else (gap, other_rate)
@@ -103,6 +105,7 @@ def lift_off(right, rate, y, p):
 @kernel(_t.int64(_t.float64, VECTOR, VECTOR, _t.boolean))
 def impact_both_corners(rise, y, p, has_tenon):
     """Apply the plastic impact of both corners to an upright body with y' = `rise`; return the closed corners ([Moreau1988]_)."""
+    # SPEED is the slip velocity of the pivot, whose arm in the upright body is r_y = -h
     speed = y[SPEED] + p[HEIGHT] * y[OMEGA]
     closed_corners, y[OMEGA], y[SPEED], loss = both_corners_impact(y[OMEGA], rise, speed, p, has_tenon)
     y[LOSS] += loss
@@ -120,12 +123,15 @@ def continue_in_contact(left, right, ended_mode, y, f, p, has_tenon):
         kind = next_mode(left, right, ended_mode, y[THETA], y[OMEGA], y[SPEED], f, p, has_tenon)
         if kind != NO_MODE:
             break
+        # the jam has changed the velocities, so that every mode is admissible again, the one that ended included
         ended_mode = NO_MODE
         y[JAMS] += 1.0
+        # on a flat base the corner ahead jams: there friction increases the normal reaction
         pivot_right = y[SPEED] > 0.0 if left and right else right
         y[OMEGA], rate, loss = resolve_jam(pivot_right, y[THETA], y[OMEGA], y[SPEED], p[RESTITUTION], p)
         y[SPEED] = 0.0
         y[LOSS] += loss
+        # the rotation after the jam presses the other corner into the ground: both corners collide, plastically
         if left and right and (corner_offset(pivot_right, p) - corner_offset(not pivot_right, p)) * y[OMEGA] < 0.0:
             closed_corners = impact_both_corners(rate + corner_offset(pivot_right, p) * y[OMEGA], y, p, has_tenon)
             left = closed_corners in (CLOSED_LEFT, CLOSED_BOTH)
@@ -137,6 +143,7 @@ def continue_in_contact(left, right, ended_mode, y, f, p, has_tenon):
             right = pivot_right
     if kind in (FLIGHT, NO_MODE):
         return lift_off(right, 0.0, y, p)
+    # contact means a gap of exactly zero, not a small one: a later flight starts from these states
     y[GAP_LEFT] = y[RATE_LEFT] = y[GAP_RIGHT] = y[RATE_RIGHT] = 0.0
     return kind
 
@@ -145,6 +152,8 @@ def continue_in_contact(left, right, ended_mode, y, f, p, has_tenon):
 def _impact_both_and_continue(right, rise, y, f, p, has_tenon):
     closed_corners = impact_both_corners(rise, y, p, has_tenon)
     if closed_corners == CLOSED_NONE:
+        # no impulse is needed: the corner separates at the velocity that it has, never at a negative one due to
+        # round-off
         return lift_off(right, max(rise - corner_offset(right, p) * y[OMEGA], 0.0), y, p)
     return continue_in_contact(closed_corners != CLOSED_RIGHT, closed_corners != CLOSED_LEFT, NO_MODE, y, f, p, has_tenon)
 
@@ -162,6 +171,7 @@ def _set_flat(omega, slip, y, f, p, has_tenon):
     """Set a body flat whose angular velocity `omega` is negligible and whose slip velocity is `slip`; return its mode."""
     speed = slip + p[HEIGHT] * omega
     y[THETA] = y[OMEGA] = 0.0
+    # a slip that would change its sign by neglecting this rotation is stopped, not reversed
     y[SPEED] = 0.0 if abs(slip) < p[SMALL_RATE] or speed * slip <= 0.0 else speed
     return continue_in_contact(True, True, NO_MODE, y, f, p, has_tenon)
 
@@ -171,6 +181,8 @@ def _corner_impact_or_rest(right, u, v, y, f, p, has_tenon):
     """Return theta', u, v and loss of an impact at one corner, without a negligible rebound where contact would persist."""
     omega, rate, slip, loss = corner_impact(right, y[THETA], y[OMEGA], u, v, p[RESTITUTION], p, has_tenon)
     if 0.0 < rate < p[SMALL_RATE] and p[RESTITUTION] > 0.0:
+        # persistence is tested in the state after the plastic impact; with the rebound itself the answer would always
+        # be flight
         plastic = corner_impact(right, y[THETA], y[OMEGA], u, v, 0.0, p, has_tenon)
         keeps_contact = next_mode(not right, right, NO_MODE, y[THETA], plastic[0], plastic[2], f, p, has_tenon) != FLIGHT
         if plastic[1] < p[SMALL_RATE] and keeps_contact:
@@ -181,14 +193,17 @@ def _corner_impact_or_rest(right, u, v, y, f, p, has_tenon):
 @kernel(_IMPACT_SIGNATURE)
 def _land_flat(right, y, f, p, has_tenon):
     """Land flat on the base, or trip over the corner towards which the body slides; return the mode."""
+    # upright and without rotation both corners come down at the same rate
     w = -y[RATE_RIGHT]
     speed = y[SPEED]
     s = 1.0 if speed > 0.0 else -1.0
     e = p[RESTITUTION]
     for _ in range(2):
         normal_impulse = (1.0 + e) * w
+        # a tenon supplies any friction impulse that stops the slip
         friction_impulse = abs(speed) if has_tenon else min(abs(speed), p[MU_KINETIC] * normal_impulse)
         reach = s * friction_impulse * p[HEIGHT]
+        # resultant outside the base: the body cannot land flat and trips over the corner ahead
         if not -p[ARM_LEFT] * normal_impulse <= reach <= p[ARM_RIGHT] * normal_impulse:
             break
         slip_after = speed - s * friction_impulse
@@ -205,6 +220,7 @@ def _land_flat(right, y, f, p, has_tenon):
         return continue_in_contact(True, True, NO_MODE, y, f, p, has_tenon)
     pivot_right = s > 0.0
     omega, rate, slip, loss = _corner_impact_or_rest(pivot_right, -w, speed, y, f, p, has_tenon)
+    # the other corner would not rise: an impact of the pivot alone does not describe this landing
     if rate + (corner_offset(pivot_right, p) - corner_offset(not pivot_right, p)) * omega <= 0.0:
         return _impact_both_and_continue(pivot_right, -w, y, f, p, has_tenon)
     y[OMEGA] = omega
@@ -232,6 +248,7 @@ def land(right, y, f, p, has_tenon):
     gap, rate = (GAP_RIGHT, RATE_RIGHT) if right else (GAP_LEFT, RATE_LEFT)
     zero_duration = y[gap] == 0.0
     y[gap] = 0.0
+    # not a landing: the corner left the ground at this very instant
     if y[rate] >= 0.0:
         if zero_duration and y[rate] < p[SMALL_RATE]:
             return _close_contact(right, y, f, p, has_tenon)
@@ -245,7 +262,10 @@ def land(right, y, f, p, has_tenon):
     if rate_after > 0.0:
         return lift_off(right, rate_after, y, p)
     base_width = corner_offset(right, p) - corner_offset(not right, p)
+    # after the plastic impact the struck corner is at rest vertically, so that the other one approaches by rotation
+    # alone
     closing_rate = -base_width * math.cos(y[THETA]) * y[OMEGA]
+    # time to the second impact, gap over closing rate, compared without a division
     if closing_rate > 0.0 and p[GRAVITY] * base_width * math.sin(y[THETA]) < SIMULTANEITY * p[SMALL_RATE] * closing_rate:
         # clattering: the other corner follows within 1e-16 sqrt(R/g), infinitely often; the limit is one impact of both
         y[THETA] = 0.0
@@ -260,9 +280,12 @@ def _impact_with_ratio(onto_right, y, p, has_tenon):
     h = p[HEIGHT]
     mu = p[MU_KINETIC]
     omega = y[OMEGA]
+    # Housner's kinematics: after the impact the struck corner is at rest vertically, so that y' = xi theta' and P is
+    # the change of y'
     fall = corner_offset(not onto_right, p) * omega
     speed = y[SPEED] + h * omega
     energy = speed * speed + fall * fall + p[GYRATION] * omega * omega
+    # an impact with ratio 0 never creates energy: lower end of the bracket
     low = 0.0
     high = p[ROCKING_RESTITUTION]
     if high < 0.0:
@@ -300,6 +323,7 @@ def rocking_impact(onto_right, y, f, p, has_tenon):
     omega = y[OMEGA]
     slip = y[SPEED]
     base_width = corner_offset(onto_right, p) - corner_offset(not onto_right, p)
+    # the tilt has the wrong sign by round-off, or rocking has just begun: nothing approaches the ground
     if base_width * omega <= 0.0:
         if zero_duration and 0.0 < abs(base_width * omega) < p[SMALL_RATE] and stays_flat(slip, f, p, has_tenon):
             return _set_flat(omega, slip, y, f, p, has_tenon)
@@ -307,12 +331,14 @@ def rocking_impact(onto_right, y, f, p, has_tenon):
         return continue_in_contact(onto_right or omega == 0.0, not onto_right or omega == 0.0, NO_MODE, y, f, p, has_tenon)
     y[IMPACTS] += 1.0
     rate = 0.0
+    # -1 selects the impact law; other values are a prescribed ratio, or minus a share of Housner's
     if p[ROCKING_RESTITUTION] > NO_MODE:
         omega_after, slip_after, loss, is_lowered = _impact_with_ratio(onto_right, y, p, has_tenon)
         if is_lowered:
             y[RATIO_LOWERED] += 1.0
     else:
         omega_after, rate, slip_after, loss = _corner_impact_or_rest(onto_right, -base_width * omega, slip, y, f, p, has_tenon)
+        # the former pivot would be pressed down instead of rising: both corners share the impact
         if rate + base_width * omega_after <= 0.0:
             return _impact_both_and_continue(onto_right, corner_offset(not onto_right, p) * omega, y, f, p, has_tenon)
     y[OMEGA] = omega_after
@@ -320,6 +346,7 @@ def rocking_impact(onto_right, y, f, p, has_tenon):
     y[LOSS] += loss
     if rate > 0.0:
         return lift_off(onto_right, rate, y, p)
+    # smallest rocking that counts: with a base that would rest or slide, the infinite sequence of impacts ends here
     if abs(base_width * omega_after) < p[SMALL_RATE] and stays_flat(slip_after, f, p, has_tenon):
         return _set_flat(omega_after, slip_after, y, f, p, has_tenon)
     if omega_after == 0.0:

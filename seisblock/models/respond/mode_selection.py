@@ -92,6 +92,7 @@ def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon
     base = p[ARM_LEFT] + p[ARM_RIGHT]
     spin = omega * omega
     if kind == FLIGHT:
+        # free normal acceleration of each corner in contact; flight requires that neither is pressed into the ground
         margin = -INFEASIBLE
         if left:
             margin = -weight - corner_position(False, theta, p)[1] * spin
@@ -101,6 +102,7 @@ def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon
     if kind == REST:
         if not on_both or slip != 0.0:
             return INFEASIBLE
+        # forces under the two corners of the body at rest, over its mass
         margin = min(p[ARM_LEFT] * weight - p[HEIGHT] * push, p[ARM_RIGHT] * weight + p[HEIGHT] * push) / base
         return margin if has_tenon else min(margin, p[MU] * weight - abs(push))
     if kind in (SLIDE_PLUS, SLIDE_MINUS):
@@ -113,6 +115,7 @@ def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon
         if tips < -FLAT_TOLERANCE * p[GRAVITY]:
             # the centre of pressure is independent of the input, so that no lookahead is needed
             margin = min(tips, weight)
+        # from rest the slip must accelerate in its own direction; a slip in progress needs only a compressive force
         return margin if slip != 0.0 else min(margin, -s * push - p[MU_KINETIC] * weight)
     pivot_right = is_right(kind)
     if not (right if pivot_right else left):
@@ -125,6 +128,7 @@ def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon
         turn, normal, tangential = sticking_forces(rx, ry, spin, push, weight, p)
         # a tenon under lateral load holds the foot down as long as the released foot would not rise
         margin = max(normal, weight + ry * spin) if has_tenon else min(normal, p[MU] * normal - abs(tangential))
+        # normal acceleration of the other corner over its distance: positive when it leaves the ground
         return min(margin, opening * turn) if on_both else margin
     s = slip_sign(kind)
     if has_tenon or s * slip < 0.0:
@@ -132,6 +136,7 @@ def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon
     turn, cone, sliding = sliding_forces(rx, ry, spin, push, weight, s * p[MU_KINETIC], p)
     if not cone > MIN_CONE:
         return INFEASIBLE
+    # N = (G + r_y theta'^2)/P with P > 0 here, so that the numerator has the sign of N
     margin = weight + ry * spin
     if on_both:
         margin = min(margin, opening * turn)
@@ -166,15 +171,19 @@ def next_mode(left, right, ended_mode, theta, omega, slip, f, p, has_tenon):
         delay = lookahead
         push, weight = ground_loads(delay, f, p)
         margin = mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon)
+        # a tie at this instant: look further ahead, until the slope of the input decides
         while abs(margin) <= tolerance and 0.0 < delay < 0.5 * p[DT]:
             delay *= LOOKAHEAD_GROWTH
             push, weight = ground_loads(delay, f, p)
             margin = mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon)
+        # the ended mode is accepted only if no other holds; otherwise a guard at zero would return the body to it
+        # endlessly
         if kind == ended_mode:
             ended_holds = margin >= -tolerance
             continue
         if margin >= -tolerance:
             return kind
+        # kept for the end: with two limits at one instant, round-off may violate every mode slightly
         if margin > best_margin:
             best_kind = kind
             best_margin = margin

@@ -95,6 +95,8 @@ def _point_slacks(right, arms, degree, p, c, g):
     """Write the heights of the further points above a corner, linear in the arms of that corner in rows `arms`, `arms` + 1 of `c`."""
     xi = corner_offset(right, p)
     h = p[HEIGHT]
+    # sin(theta) and cos(theta) are linear in the arms (r_x, r_y) of a corner, so that the height of any point of the
+    # body needs no series of its own
     per_square = 1.0 / (xi * xi + h * h)
     for point in range((p.size - POINTS) // 2):
         point_x = p[POINTS + 2 * point]
@@ -117,6 +119,7 @@ def series(mode, y, f, p, order, c, g):
         for k in range(END, g.shape[0]):
             g[k, 0] = OFF
         return CONSTANT
+    # a guard that is negative at once hands over to `reset`, which finds the first mode
     if kind == START:
         g[LEFT, 0] = -1.0
         g[LEFT, 1] = 0.0
@@ -135,6 +138,7 @@ def series(mode, y, f, p, order, c, g):
                 g[END, k] = -side * c[THETA, k]
             g[END, 0] += HALF_PI
         _point_slacks(True, y.size + 2, degree, p, c, g)
+        # in flight the right corner is itself at the height of its gap
         for k in range(degree + 1):
             for point in range(END + 1, g.shape[0]):
                 g[point, k] += c[GAP_RIGHT, k]
@@ -169,8 +173,10 @@ def _initial_mode(y, f, p, has_tenon):
         return FLIGHT
     rotation_speed = corner_position(pivot_right, y[THETA], p)[1] * y[OMEGA]
     slip = y[SPEED] + rotation_speed
+    # two large parts that cancel leave round-off, which would select slip where the corner sticks
     if abs(slip) <= SLIP_TOLERANCE * (abs(y[SPEED]) + abs(rotation_speed)):
         slip = 0.0
+    # with the other corner already resting this is a rocking impact, below; otherwise a landing
     if rate < 0.0 and not (left and right and other_rate == 0.0):
         return land(pivot_right, y, f, p, has_tenon)
     y[SPEED] = slip
@@ -189,8 +195,11 @@ def _foot_rises(right, y, f, p):
     push, weight = ground_loads(0.0, f, p)
     tangential = sticking_forces(rx, ry, spin, push, weight, p)[2]
     normal_force = weight + ry * spin
+    # the normal force of the released foot is positive again: nothing to decide
     if normal_force > TENON_FORCE_RATIO * p[GRAVITY]:
         return False
+    # in flight theta'' = 0, hence d/dt (G + r_y theta'^2) = a_y' - r_x theta'^3. Where the force is zero its rate
+    # decides whether the foot stays on the ground.
     return f[UP, 1] - rx * y[OMEGA] * spin < 0.0 or (
         normal_force < -TENON_FORCE_RATIO * p[GRAVITY] and abs(tangential) < TENON_FORCE_RATIO * p[GRAVITY]
     )
@@ -203,6 +212,8 @@ def reset(mode, guard, y, f, p):
     kind = mode - TENON_OFFSET if has_tenon else mode
     if guard >= END:
         return OVERTURNED
+    # both feet must be out: the root of the guard is known up to round-off only. Without the offset, Coulomb friction
+    # acts from here on.
     if guard == RELEASE:
         return FLIGHT if min(y[GAP_LEFT], y[GAP_RIGHT]) >= p[TENON] * (1.0 - SLIP_TOLERANCE) else mode
     if kind == START:
@@ -223,6 +234,7 @@ def reset(mode, guard, y, f, p):
         # without any rotation yet both corners are still in contact
         is_flat = (kind != ROCK_RIGHT and kind != ROCK_LEFT and kind < SLIDE_ROCK_RIGHT_PLUS) or (y[THETA] == 0.0 and y[OMEGA] == 0.0)
         target_mode = continue_in_contact(is_flat or not is_right(kind), is_flat or is_right(kind), ended_mode, y, f, p, has_tenon)
+    # after the record no force can end a rest
     if target_mode == REST and p[GROUND_AT_REST] > 0.0:
         return SETTLED
     if y[IMPACTS] > p[MAX_IMPACTS]:

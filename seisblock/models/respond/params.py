@@ -102,6 +102,7 @@ class RigidBody:
     @property
     def friction_limit(self) -> float:
         """Painleve's limit of kinetic friction: the minimum 2 sqrt(kappa (1 + kappa)), kappa = k^2/R^2 (derived here)."""
+        # the corner with the longer radius has the smaller kappa and reaches the limit first
         largest = max(self.radii)
         kappa = self.gyration_squared / (largest * largest)
         return 2.0 * math.sqrt(kappa * (1.0 + kappa))
@@ -196,6 +197,7 @@ class RespondParams(DisplayMixin):
     def parameters(self, dt: float, *, duration_s: float = 0.0, ground_at_rest: bool = False) -> FloatArray:
         """Return the parameter vector of the model, (15 + 2 n_points,), for a run of `duration_s` seconds."""
         body = self.rigid_body
+        # a negative value encodes a share of Housner's ratio, see ``constants``: one parameter serves both laws
         ratio = NO_MODE * self.rocking_share if self.rocking_restitution is None else self.rocking_restitution
         row = [
             self.gravity, dt, self.mu, self.mu_kinetic, self.restitution, ratio, body.right, body.left, body.height, body.gyration_squared,

@@ -101,6 +101,7 @@ def rest_slacks(has_tenon, f, p, g):
     for k in (LEFT, RIGHT, FORWARD, BACKWARD):
         # within the tolerance of mode selection now and one sampling interval later: a tie, the mode persists
         if threshold <= g[k, 0] < 0.0 and g[k, 0] + g[k, 1] * p[DT] >= threshold:
+            # otherwise the guard would fire, although mode selection keeps the mode
             g[k, 0] = 0.0
             g[k, 1] = max(g[k, 1], 0.0)
     if has_tenon:
@@ -129,6 +130,7 @@ def slide_series(s, y, f, p, c, g):
     c[X, 2] = 0.5 * v1
     c[X, 3] = v2 / 3.0
     for k in range(1, 4):
+        # the slip keeps its sign within a mode, so that path and displacement differ by a sign only
         c[PATH, k] = s * c[X, k]
     c[WORK, 1] = -push * v0
     c[WORK, 2] = -0.5 * (push * v1 + push_rate * v0)
@@ -160,6 +162,8 @@ def flight_series(y, f, p, order, c, g):
     # corner vectors as series: r_x' = r_y theta', r_y' = -r_x theta'
     for side in range(2):
         c[arms + 2 * side, 0], c[arms + 2 * side + 1, 0] = corner_position(side == 1, y[THETA], p)
+    # displacement and work of a translation are of degree 3 and 4; a rotation adds terms (theta' dt)^k/k!, which
+    # converge fast
     degree = 4
     if omega != 0.0:
         angle = abs(omega) * p[DT]
@@ -176,6 +180,7 @@ def flight_series(y, f, p, order, c, g):
     c[X, 1] = y[SPEED]
     c[X, 2] = -0.5 * push
     c[X, 3] = -push_rate / 6.0
+    # rise of the centre of gravity from that of the right corner
     rise = y[RATE_RIGHT] + c[arms + 2, 0] * omega
     c[WORK, 1] = -push * y[SPEED] - up * rise
     c[WORK, 2] = 0.5 * (push * push - push_rate * y[SPEED] + up * weight - up_rate * rise)
@@ -210,6 +215,7 @@ def flight_series(y, f, p, order, c, g):
 @kernel(_t.void(VECTOR, VECTOR, _t.int64, MATRIX, MATRIX), inline=True)
 def release_slack(y, p, degree, c, g):
     """Write the remaining tenon engagement of the lower corner, m (extension; compare [Sugimoto2017]_ fig. 5)."""
+    # the lower foot is held longest, and its tenon decides when both are free
     lower_gap = GAP_RIGHT if y[THETA] > 0.0 or (y[THETA] == 0.0 and y[OMEGA] >= 0.0) else GAP_LEFT
     for k in range(degree + 1):
         g[RELEASE, k] = -c[lower_gap, k]

@@ -120,6 +120,7 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
     c[X, 0] = y[X]
     c[WORK, 0] = y[WORK]
     c[rx, 0], c[ry, 0] = corner_position(right, y[THETA], p)
+    # the arm turns without changing its length: k^2 + r^2 is constant over the step
     inertia = 1.0 / (p[GYRATION] + c[rx, 0] * c[rx, 0] + c[ry, 0] * c[ry, 0])
     limit = p[MU]
     size = abs(omega)
@@ -135,6 +136,7 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
         for j in range(k + 1):
             ry_omega += c[ry, j] * c[OMEGA, k - j]
             rx_omega += c[rx, j] * c[OMEGA, k - j]
+        # N and T are derivatives, k times coefficient k: they are complete one order later than the states
         if k > 0:
             normal = k * rx_omega
             tangent = -k * ry_omega
@@ -150,6 +152,7 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
             last_term = term
             term = abs(c[OMEGA, k]) * power
             size += term
+            # two successive terms, since the series of an even or odd motion has zeros in between
             if k >= 3 and term <= TERM_TOLERANCE * size and last_term <= PREVIOUS_TERM_TOLERANCE * size:
                 degree = k
                 break
@@ -168,11 +171,13 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
         c[OMEGA, k + 1] = turn * share
         c[rx, k + 1] = ry_omega * share
         c[ry, k + 1] = -rx_omega * share
+        # the foot is fixed: x = x_foot - r_x needs no integration
         c[X, k + 1] = -c[rx, k + 1]
         c[WORK, k + 1] = work * share
         last_ry_omega = ry_omega
         last_rx_omega = rx_omega
         power *= dt
+    # the top coefficient of N and T would need the next order of the states
     g[LIFT, degree] = g[FORWARD, degree] = g[BACKWARD, degree] = 0.0
     for k in (LIFT, FORWARD, BACKWARD):
         # mode selection accepts this tolerance: a violated limit from which the motion departs does not end the mode
@@ -187,5 +192,6 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
         g[LIFT, 0] = OFF
     freeze_states(c, SPEED, WORK)
     freeze_states(c, FRICTION, y.size)
+    # the sum of all absolute terms bounds theta' over the step; 1 % covers the truncated ones
     rotation_slacks(side, degree, 1.01 * size * dt, p, c, g)
     return degree

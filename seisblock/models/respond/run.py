@@ -128,6 +128,7 @@ def run(
         keep_path=keep_path,
         keep_events=keep_path,
     )
+    # at rest nothing can start a motion once the ground is still
     if not is_moving(record_part.final_mode) or settle_s == 0.0:
         return Run(record_part, None, duration)
     ground = zero_motion(settle_s)

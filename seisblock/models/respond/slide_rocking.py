@@ -80,10 +80,12 @@ def slide_rock_series(right, s, y, f, p, order, c, g):
         for j in range(k + 1):
             ry_omega += c[ry, j] * c[OMEGA, k - j]
         if k == 0:
+            # x' of the centre of gravity: slip velocity of the corner minus the rotation
             c[speed, 0] = y[SPEED] - ry_omega
         else:
             slip = c[speed, k] + ry_omega
             if k == 1:
+                # a slip that starts from zero must not start backwards by round-off
                 slip = clear_round_off(s, y[SPEED], slip, 0.0, p)
             c[SPEED, k] = slip
             last_term = term
@@ -113,6 +115,7 @@ def slide_rock_series(right, s, y, f, p, order, c, g):
         normal *= cone
         c[force, k] = normal
         g[LIFT, k] = normal
+        # the ground's horizontal acceleration is absent from theta'': it changes the slip velocity only
         turn = -(lever * normal + pressing) * per_inertia
         if k == 0:
             turn = initial_angular_acceleration(side, y[THETA], omega, turn, -lever * cone * up_rate * per_inertia, p)

@@ -210,6 +210,7 @@ def is_sensitive(
     result: Run, params: RespondParams, motion: Motion, factors: tuple[float, float, float], initial: Initial, settle_s: float
 ) -> bool:
     """Return whether a change of the motion by up to 2e-6 changes the verdict."""
+    # chaotic runs change their verdict under changes far below the accuracy of any record
     for change in PERTURBATIONS:
         gain_along, gain_across, gain_up = ((1.0 + change) * gain for gain in factors)
         if verdict(run(params, motion, (gain_along, gain_across, gain_up), initial, settle_s, keep_path=False)) != verdict(result):

@@ -36,6 +36,7 @@ def sine_cosine(x):
     """Return sine and cosine of an angle in [-pi/2, pi/2] to one ulp, by Taylor series up to pi/4."""
     size = abs(x)
     is_steep = size > QUARTER_PI
+    # sine and cosine exchange roles at pi/2 - x; the residual of pi/2 keeps the difference exact next to pi/2
     r = (HALF_PI - size) + HALF_PI_RESIDUAL if is_steep else size
     z = r * r
     zz = z * z
@@ -65,6 +66,7 @@ def omega_coefficients(s0, c0, w0, w1, lever, g0, g1, a0, a1):
     g0, g1, a0, a1 : float, m/s^2 and m/s^3
         Gravity plus vertical acceleration, and horizontal acceleration: value and slope.
     """
+    # the factor -lever is common to all terms of the equation
     g0, g1, a0, a1 = -lever * g0, -lever * g1, -lever * a0, -lever * a1
     # the newest terms come last in each sum, so that earlier products do not wait for them
     s1, c1 = -w0 * c0, w0 * s0
@@ -99,6 +101,7 @@ def lean_bound(h, w0, w1, w2, w3, w4, w5, w6, w7, w8, w9, w10):
     power = hh * hh * hh * hh
     previous_term, last_term = power * (abs(w9) * h), power * (abs(w10) * hh)
     late_terms = (abs(w5) + h * abs(w6)) + hh * ((abs(w7) + h * abs(w8)) + hh * (abs(w9) + h * abs(w10)))
+    # sum of absolute terms, an upper bound of omega over the step
     size = abs(w0) + h * (((abs(w1) + h * abs(w2)) + hh * (abs(w3) + h * abs(w4))) + hh * hh * late_terms)
     return h * size, (last_term <= LAST_TERM_TOLERANCE * size) & (previous_term <= PREVIOUS_TERM_TOLERANCE * size)
 
@@ -117,6 +120,7 @@ def expand_series(c, order, linear, dt, lever, g0, g1, a0, a1):
     for k in range(1, order):
         next_share = 1.0 / (k + 1)
         c[THETA, k + 1] = c[OMEGA, k] * next_share
+        # slender option: sin(psi) becomes psi, whose derivative is -theta', and cos(psi) becomes 1
         if linear:
             c[SINE, k] = -c[THETA, k]
             c[COSINE, k] = 0.0
@@ -135,6 +139,7 @@ def expand_series(c, order, linear, dt, lever, g0, g1, a0, a1):
         previous_term = term
         term = abs(c[OMEGA, k + 1]) * power
         size += term
+        # two successive terms: the series of a symmetric motion has zeros in between
         if term <= TERM_TOLERANCE * size and previous_term <= PREVIOUS_TERM_TOLERANCE * size:
             return k
     return order

@@ -69,6 +69,7 @@ class _TrajectoryRows:
 
     def select_extremes(self) -> _TrajectoryRows:
         """Return the rows nearest to slip and to loss of contact with their neighbours, the first rocking row, and both ends."""
+        # short runs are evaluated completely; the selection only bounds the memory of long records
         if self.time.size <= MAX_ROWS:
             return self
         ratio, normal = self.ratio()
@@ -80,6 +81,7 @@ class _TrajectoryRows:
         """Return abs(H/N), infinite where contact is lost, and N/m."""
         horizontal, normal = self.forces(self.theta, self.omega, self.push, self.weight)
         with np.errstate(divide="ignore"):
+            # contact lost counts as an infinite demand, so that one maximum finds both limits of the model
             return np.where(normal > 0.0, np.abs(horizontal) / np.maximum(normal, 1e-300), math.inf), normal
 
     def angular_acceleration(self, theta: FloatArray, push: FloatArray, weight: FloatArray) -> FloatArray:
@@ -94,6 +96,7 @@ class _TrajectoryRows:
         alpha = -self.lever * (weight * (psi if self.linear else sine) + push * (1.0 if self.linear else cosine))
         horizontal = push + self.radius * (alpha * cosine + omega**2 * sine)
         normal = weight + self.radius * (alpha * sine - omega**2 * cosine)
+        # at rest the base carries the load anywhere between the corners: H = a and N = g + a_v
         at_rest = self.mode == REST
         return np.where(at_rest, push, horizontal), np.where(at_rest, weight, normal)
 
@@ -110,10 +113,12 @@ def friction_demand(params: RockParams, motion: Motion, trajectory: Trajectory, 
         return FrictionDemand(0.0, None, None)
     ratio, normal = rows.ratio()
     best = int(np.argmax(ratio))
+    # without rocking the samples are exact: demand is a ratio of linear functions, extreme at a sample
     if not (rows.mode != REST).any():
         return FrictionDemand(float(ratio[best]), float(rows.time[best]), float(rows.time[best]) if ratio[best] == math.inf else None)
     extremes = _extreme_rows(ratio, normal)
     is_near = np.zeros(rows.time.size, dtype=bool)
+    # the peak may lie on either side of an extreme row: both adjacent intervals are refined
     is_near[extremes] = is_near[extremes - 1] = True
     # refine only between rows of one mode, of positive length, that are neighbours in the full trajectory
     starts = np.flatnonzero(is_near[:-1])
@@ -124,6 +129,7 @@ def friction_demand(params: RockParams, motion: Motion, trajectory: Trajectory, 
     ]
     times, horizontal, normal = _inner_forces(rows, starts)
     lost_contact = np.flatnonzero((normal <= 0.0).ravel())
+    # contact lost at a row, for example just after an impact, precedes what the interpolation finds
     first = float(rows.time[np.isinf(ratio)].min()) if np.isinf(ratio).any() else math.inf
     if lost_contact.size:
         row, column = divmod(int(lost_contact[0]), INNER_POINTS.size)
@@ -204,6 +210,7 @@ def _rows_until(params: RockParams, motion: Motion, path: Path, until_s: float, 
 def _relevant_samples(push: FloatArray, weight: FloatArray, modes: IntArray) -> IntArray:
     """Return the samples to evaluate: all samples in motion, and of those at rest the one with the largest friction demand."""
     moving = modes != REST
+    # where the weight vanishes the ratio loses its meaning: all rows are kept
     if moving.all() or not (weight > 0.0).all():
         return np.arange(modes.size)
     resting = np.flatnonzero(~moving)
@@ -221,6 +228,7 @@ def _inner_forces(rows: _TrajectoryRows, starts: IntArray) -> tuple[FloatArray, 
         (row.theta, row.omega * step, row.angular_acceleration(row.theta, row.push, row.weight) * step**2) for row in (first, last)
     )
     theta, omega = _quintic(start, end, u)
+    # the record is piecewise linear; only the tilt needs the higher order
     push = first.push * (1 - u) + last.push * u
     weight = first.weight * (1 - u) + last.weight * u
     return first.time + u * step, *first.forces(theta, omega / step, push, weight)
@@ -232,6 +240,7 @@ def _quintic(
     """Return value and derivative at `u` of the quintic Hermite polynomial with (value, first, second derivative) at 0 and 1."""
     y0, v0, a0 = first
     y1, v1, a1 = last
+    # remainders of value, slope and curvature after the quadratic start, in units of the interval
     rise = y1 - y0 - v0 - a0 / 2
     speed = v1 - v0 - a0
     bend = a1 - a0

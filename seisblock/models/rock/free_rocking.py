@@ -56,8 +56,10 @@ def potential_rise(alpha, p_squared, linear, low, step):
 @kernel(_t.float64(_t.float64, _t.float64, _t.boolean, _t.float64), inline=True)
 def _turning_point(alpha, p_squared, linear, energy):
     """Return the peak tilt below alpha of a swing that starts upright with kinetic energy `energy`, rad."""
+    # clipping at the barrier keeps the argument of acos valid when the energy equals it up to round-off
     share = min(energy, potential_rise(alpha, p_squared, linear, 0.0, alpha)) / p_squared
     if linear:
+        # quadratic root in the form without cancellation for a small energy
         return share * 2 / (alpha + math.sqrt(max(alpha * alpha - 2 * share, 0.0)))
     return alpha - math.acos(min(math.cos(alpha) + share, 1.0))
 
@@ -99,9 +101,12 @@ def trace_free_rocking(p, theta, omega, max_leans, legs):
     """
     linear = p[IS_LINEAR] != 0.0
     k = RIGHT if theta > 0.0 or (theta == 0.0 and omega >= 0.0) else LEFT
+    # tilt and speed are counted positive away from the ground about the corner in contact, so that both corners share
+    # one set of equations
     phi, speed = abs(theta), omega if k == RIGHT else -omega
     max_leans[RIGHT] = max_leans[LEFT] = 0.0
     right, left = p[ALPHA_RIGHT], p[ALPHA_RIGHT + 1]
+    # below the lower of the two barriers neither corner can be overturned, whatever follows
     energy_threshold = min(
         potential_rise(right, p[GRAVITY] * p[LEVER_RIGHT], linear, 0.0, right),
         potential_rise(left, p[GRAVITY] * p[LEVER_RIGHT + 1], linear, 0.0, left),
@@ -113,11 +118,13 @@ def trace_free_rocking(p, theta, omega, max_leans, legs):
         # kinetic energy above the barrier at alpha decides
         surplus = 0.5 * speed * speed - potential_rise(alpha, p_squared, linear, phi, alpha - phi)
         overturns = speed > 0.0 and surplus > 0.0
+        # beyond alpha gravity drives the block on, unless it moves back with enough energy to pass the barrier
         if overturns or (phi > alpha and (surplus <= 0.0 or speed >= 0.0)):
             max_leans[k] = HALF_PI
             if phi < alpha:
                 count = _add_leg(legs, count, k, phi, alpha, speed)
                 count = _add_leg(legs, count, k, alpha, HALF_PI, math.sqrt(2.0 * surplus))
+            # moving back, but too slowly: it turns before alpha and falls after all
             elif speed < 0.0:
                 turning_point = _returning_point(alpha, p_squared, linear, phi, speed)
                 count = _add_leg(legs, count, k, turning_point, phi, 0.0)
@@ -125,15 +132,19 @@ def trace_free_rocking(p, theta, omega, max_leans, legs):
             else:
                 count = _add_leg(legs, count, k, phi, HALF_PI, speed)
             return TO_THE_RIGHT if k == RIGHT else TO_THE_LEFT, count
+        # V(0) = 0: the energy at the impact is all kinetic
         energy = 0.5 * speed * speed + potential_rise(alpha, p_squared, linear, 0.0, phi)
         if speed > 0.0:
             peak_lean = _turning_point(alpha, p_squared, linear, energy)
             max_leans[k] = max(max_leans[k], peak_lean)
+            # a turning point is written as the start of both halves: the integrand of the duration is singular there,
+            # and the substitution of ``_leg_duration`` removes it at the first tilt only
             count = _add_leg(legs, count, k, peak_lean, phi, 0.0)
             count = _add_leg(legs, count, k, peak_lean, 0.0, 0.0)
         elif phi > 0.0:
             count = _add_leg(legs, count, k, phi, 0.0, -speed)
         k = 1 - k
+        # restitution of the corner that is struck, which differs for an asymmetric block
         phi, speed = 0.0, p[RESTITUTION_RIGHT + k] * math.sqrt(2 * max(energy, 0.0))
         if 0.5 * speed * speed <= energy_threshold:
             # below the lower barrier: no overturning any more, only the peaks of the next swing to either side remain
@@ -218,6 +229,7 @@ def free_rocking_outcome(params: RockParams, theta: float, omega: float) -> Free
     leans = float(max_leans[RIGHT]), float(max_leans[LEFT])
     if ending == STANDS:
         return FreeRockingOutcome(False, 0, leans)
+    # more legs than the table holds: the first pass has counted them
     if count > INITIAL_LEGS:
         legs = np.empty((count, 4))
         trace_free_rocking(p, theta, omega, max_leans, legs)
@@ -245,11 +257,13 @@ def _leg_duration(params: RockParams, corner: float, first: float, last: float, 
     alpha, p_squared = params.alphas[int(corner)], params.gravity * params.levers[int(corner)]
     span = last - first
 
+    # slowness: time per unit of u, d phi/phi' with d phi = 2 span u du
     def slowness(u: float) -> float:
         return (
             2 * abs(span) * u / math.sqrt(max(speed**2 - 2 * potential_rise(alpha, p_squared, params.linear, first, span * u * u), 1e-300))
         )
 
+    # the slowness peaks at the barrier; a break there lets the quadrature resolve it
     share = (alpha - first) / span
     breaks = [math.sqrt(share)] if 0.0 < share < 1.0 else None
     # full_output=1 silences quad's warning: next to the barrier the last digits are round-off

@@ -120,6 +120,7 @@ def series(mode, y, f, p, order, c, g):
     push = f[ALONG, 0] + f[ACROSS, 0]
     push_rate = f[ALONG, 1] + f[ACROSS, 1]
     if mode == REST:
+        # restoring minus driving moment about each corner, over m R cos(alpha): linear in time between samples
         g[0, 0] = weight * p[THRESHOLD_RIGHT] + push
         g[0, 1] = weight_rate * p[THRESHOLD_RIGHT] + push_rate
         g[1, 0] = weight * p[THRESHOLD_LEFT] - push
@@ -139,11 +140,13 @@ def series(mode, y, f, p, order, c, g):
         if rate * s < 0.0:
             rate = 0.0
     c[THETA, 0], c[THETA, 1], c[OMEGA, 0], c[OMEGA, 1], c[SINE, 0], c[COSINE, 0] = theta, omega, omega, rate, sine, cosine
+    # the potential barrier splits the swing into two modes, so that the log tells when alpha is passed
     lower_bound, upper_bound = (0.0, alpha) if mode < BEYOND_RIGHT else (alpha, HALF_PI)
     lean = s * theta
     if p[IS_LINEAR] == 0.0:
         w2, w3, w4, w5, w6, w7, w8, w9, w10 = omega_coefficients(sine, cosine, omega, rate, lever, weight, weight_rate, push, push_rate)
         reach, converged = lean_bound(p[DT], omega, rate, w2, w3, w4, w5, w6, w7, w8, w9, w10)
+        # the unrolled series serves nearly every step; the loop below takes over for small blocks and coarse records
         if converged:
             c[OMEGA, 2], c[OMEGA, 3], c[OMEGA, 4], c[OMEGA, 5], c[OMEGA, 6] = w2, w3, w4, w5, w6
             c[OMEGA, 7], c[OMEGA, 8], c[OMEGA, 9], c[OMEGA, 10] = w7, w8, w9, w10
@@ -154,6 +157,7 @@ def series(mode, y, f, p, order, c, g):
             _write_guard(c, g, UPPER_BOUND, s, upper_bound, TERMS, lean + reach < upper_bound)
             return TERMS
     degree = expand_series(c, order, p[IS_LINEAR] != 0.0, p[DT], lever, weight, weight_rate, push, push_rate)
+    # the loop has no bound of the tilt: both guards stay on
     _write_guard(c, g, LOWER_BOUND, s, lower_bound, degree, False)
     _write_guard(c, g, UPPER_BOUND, s, upper_bound, degree, False)
     return degree
@@ -169,6 +173,7 @@ def reset(mode, guard, y, f, p):
         if guard == UPPER_BOUND:
             y[THETA] = s * HALF_PI
             return OVERTURNED
+        # the bound itself, not the root found: round-off must not leave the block on the wrong side of alpha
         y[THETA] = s * alpha
         return TO_RIGHT if mode == BEYOND_RIGHT else TO_LEFT
     if guard == UPPER_BOUND:
@@ -178,6 +183,7 @@ def reset(mode, guard, y, f, p):
     y[THETA] = 0.0
     weight = p[GRAVITY] + f[UPWARD, 0]
     push = f[ALONG, 0] + f[ACROSS, 0]
+    # the restitution is that of the corner which is struck, the next pivot
     if mode == TO_LEFT:
         y[OMEGA] *= p[RESTITUTION_RIGHT]
         slack = weight * p[THRESHOLD_RIGHT] + push
@@ -210,6 +216,7 @@ def skip(mode, acceleration, gains, sample, p):
     if gain_up == 0.0 and gain_across == 0.0:
         low = -p[GRAVITY] * right
         high = p[GRAVITY] * left
+        # records at rest are long: without vertical motion both limits are constants
         while k <= last and low < gain_along * acceleration[ALONG, k] < high:
             k += 1
     else:

@@ -114,6 +114,7 @@ def rock_verdicts(params: RockBatchParams | Sequence[RockParams], motion: Motion
     groups = [params] if isinstance(params, RockBatchParams) else params
     p = np.concatenate([np.atleast_2d(model.parameters(group, motion.dt)) for group in groups])
     runs = max(len(p), len(rows))
+    # one block under many gains shares its parameters; the engine expects a row per run
     p = np.repeat(p, runs, axis=0) if len(p) == 1 else p
     ensemble = integrate_many(ROCKING_SIMD_MODEL, motion, p, np.zeros(2), model.REST, gains=rows, allow_failures=True)
     endings, free_leans = np.empty(runs, dtype=np.int64), np.zeros((runs, 2))
@@ -125,5 +126,6 @@ def rock_verdicts(params: RockBatchParams | Sequence[RockParams], motion: Motion
     to_right = np.maximum(highest, free_leans[:, RIGHT]) / p[:, model.ALPHA_RIGHT]
     to_left = np.maximum(-lowest, free_leans[:, LEFT]) / p[:, model.ALPHA_LEFT]
     overturning_times = np.where(ensemble.final_mode == model.OVERTURNED, ensemble.end_time, np.nan)
+    # a run without a result counts neither as overturned nor as stable
     endings[gave_up] = STANDS
     return Verdicts(endings != STANDS, np.where(gave_up, np.nan, np.maximum(to_right, to_left)), endings, overturning_times, gave_up)
