@@ -176,6 +176,7 @@ def integrate_many(
         raise ParameterError("`parameters` must have one row per trajectory, found shape {shape}", shape=str(p.shape))
     m, n_states = p.shape[0], len(model.states)
     states, scale = np.empty((m, n_states)), np.empty((m, 3))
+    # broadcasting copies: the kernel advances the rows in place
     states[:], scale[:] = initial, gains
     template = initial_state(BEGINNING, 0, np.empty(n_states))
     rows = BatchState(

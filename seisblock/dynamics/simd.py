@@ -85,6 +85,7 @@ def integrate_in_lanes(
                     ),
                     scratch,
                 )
+                # one step for the interval, one for the call, so that rows at rest use up the allowance
                 steps -= 2 - counters[STEPS_LEFT]
                 segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= last
                 if rows.statuses[lane_row] != PAUSED or segment_done:

@@ -231,6 +231,7 @@ class _RowParameters:
         sizes = ([getattr(block, field.name) for block, _ in pairs] for field in fields(flying.Sizes))
         return cls(
             flying.Sizes(*map(rows, sizes)),
+            # the direction restricts onsets only; rocking itself reads no threshold
             rows([rocking.rocking_parameters(block, gravity, direction) for block, _ in pairs]),
             rows([rocking.rocking_parameters(block, gravity, "both") for block, _ in pairs]),
             rows([flying.flight_parameters(block, gravity, contact.mu, contact.kinetic, 0.0, dt, landing) for block, contact in pairs]),
@@ -284,6 +285,7 @@ def _run_chains(rows: _RowParameters, motion: Motion, factor: FloatArray, drops:
         tables.append(step.chains)
         codes[active_rows], jammed[active_rows] = step.chains.outcome_code, step.jammed
         has_jumped[active_rows] |= step.chains.outcome_code == JUMP
+        # a chain without a jump ends where it began
         total[active_rows] += np.where(np.isin(step.chains.outcome_code, (JUMP, OVERTURNS_LANDED)), step.displacement, 0.0)
         displacement[active_rows] += step.displacement
         friction[active_rows] = np.fmax(friction[active_rows], step.chains.friction_needed)

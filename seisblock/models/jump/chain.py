@@ -186,6 +186,7 @@ def summarise_chain(path: ChainPath) -> Chain:
         "max_rotation_rad": float(path.rocking_path.extrema[0, 0]),
         "time_above_threshold_s": _time_above_threshold(path),
     }
+    # without an impact the block overturned, or still rocks at the time limit
     if path.has_impact:
         entries |= {
             "impact_s": impact,
@@ -218,6 +219,7 @@ def _flight_results(path: ChainPath) -> dict[str, Any]:
     assert path.flight_path is not None and path.launch is not None
     flight, takeoff, first_landing = path.flight_path, path.launch, path.first_landing
     entries: dict[str, Any] = {
+        # a landing may end the flight before the top of the parabola
         "max_rise_m": centroid_rise(
             takeoff.vertical, path.gravity, math.inf if first_landing is None else first_landing.time - path.rocking_path.end_time
         ),
@@ -234,10 +236,12 @@ def _flight_results(path: ChainPath) -> dict[str, Any]:
         "landing_corner": "leading" if first_landing.guard == flying.RIGHT else "trailing",
         "friction_needed_at_landing": float(flight.final[flying.FRICTION_NEEDED]),
         "landing_energy_j": (float(flight.final[flying.ENERGY_BEFORE]), float(flight.final[flying.ENERGY_AFTER])),
+        # terminal targets have no kind of contact
         "slid": any(c.target > 0 and flying.contact_kind(c.target) in SLIPPING_KINDS for c in flight.events),
     }
     if path.is_complete:
         end = path.motion.start_s + flight.end_time
+        # the terminal mode has no corner; the mode that it ended does
         x, _ = flying.centroid(path.block, path.drop, np.array([flight.events[-1].source]), flight.final[np.newaxis])
         total = 0.0 if path.held else path.sign * float(x[0])
         entries |= {
@@ -246,6 +250,7 @@ def _flight_results(path: ChainPath) -> dict[str, Any]:
             "rock_slide_displacement_m": path.sign * float(x[0]) - jump_displacement,
             "total_displacement_m": total,
         }
+        # the tilt returns to zero from a contact mode; a corner that lands fires the same guard in flight
         level = next((c for c in flight.events if c.source != flying.FLIGHT and c.guard == flying.TOUCH), None)
         if level is not None:
             entries["end_angular_velocity_rad_s"] = abs(float(level.before[flying.OMEGA]))
@@ -272,6 +277,7 @@ def _time_above_threshold(path: ChainPath) -> float:
 
 def phases_and_events(path: ChainPath) -> tuple[tuple[Phase, ...], tuple[Event, ...]]:
     """Return the phases and events of a chain; tilt positive to +x."""
+    # the model counts the tilt counter-clockwise, results count it positive to +x
     tilt = -path.sign
     onset, impact = path.onset_s, path.impact_s
     rest, final_tilt = np.zeros(1), tilt * path.rocking_path.final[:1]
@@ -299,6 +305,7 @@ def chain_curves(path: ChainPath) -> tuple[FloatArray, FloatArray, FloatArray, F
     times, states, _ = path.rocking_path.table()
     time = np.concatenate([[path.onset_s], times + t0])
     theta = np.concatenate([[0.0], states[:, rocking.THETA]])
+    # arc of the centroid about the left corner, from the place at rest
     lean = block.slenderness - theta
     x = block.radius * np.sin(lean) - block.width / 2
     rise = block.radius * np.cos(lean) - block.centroid_height

@@ -110,6 +110,7 @@ def _flight_series(y, f, p, order, c, g):
         c[SIN, k] = y[OMEGA] * c[COS, k - 1] / k
         c[COS, k] = -y[OMEGA] * c[SIN, k - 1] / k
     for k in range(order + 1):
+        # `c` is reused from step to step: above order 3 it may hold coefficients of an earlier mode
         if k > 3:
             for i in range(6):
                 c[i, k] = 0.0
@@ -128,6 +129,7 @@ def _flat_sliding_series(slip, y, f, p, c, g):
     for i in range(6):
         c[i, 0] = y[i]
         c[i, 1] = c[i, 2] = c[i, 3] = 0.0
+    # the flat base carries the weight alone: N = m g, without the terms of rotation
     pull = -f[0, 0] - slip * p[MU_KINETIC] * p[GRAVITY]
     c[X, 1], c[X, 2], c[X, 3] = y[VX], pull / 2, -f[0, 1] / 6
     c[VX, 1], c[VX, 2] = pull, -f[0, 1] / 2
@@ -149,6 +151,8 @@ def flight_series(mode, y, f, p, order, c, g):
     kind = contact_kind(mode)
     if kind >= FLAT_BACKWARD:
         return _flat_sliding_series(1.0 if kind == FLAT_FORWARD else -1.0, y, f, p, c, g)
+    # slip directions are numbered in the component's frame; the equations are those of the right corner, mirrored for
+    # the left one
     slip = 0.0
     if kind == SLIP_BACKWARD:
         slip = -side
@@ -217,6 +221,7 @@ def flight_series(mode, y, f, p, order, c, g):
         c[Y, k + 1] = c[VY, k + 1] = 0.0
         sine_cosine(c[PSI], c[SIN], c[COS], k + 1)
     g[TOPPLE, 0] += 0.5 * np.pi
+    # the guards of kinetic friction would end the stick, which the paper tests once
     if kind == STICK:
         # static friction is tested at the landing only, as in the paper
         g[FRICTION, 0] = g[FRICTION_BACKWARD, 0] = OFF
@@ -231,6 +236,7 @@ def _slip_mode(corner, slip, s, c, p):
 
     `slip` is the slip direction in the mirrored frame of `corner`.
     """
+    # D is Painleve's denominator: where it is not positive, a slipping foot has no consistent force
     if p[CENTROID_INERTIA] + p[MASS] * p[RADIUS] ** 2 * c * (c - slip * p[MU_KINETIC] * s) <= 0.0:
         return JAMMED
     return contact_mode(corner, SLIP_FORWARD if slip * (2 * corner - 1) > 0.0 else SLIP_BACKWARD)
@@ -253,6 +259,7 @@ def _stick_or_slip_mode(corner, y, f, p, mu, stick_kind):
     s = np.sin(psi)
     c = np.cos(psi)
     tilting = -side * y[OMEGA]
+    # eqs. (12b), (12c) with the sign of z'' as printed, or corrected
     shake = -side * f[0, 0] if p[RULE] == PRINTED_RULE else side * f[0, 0]
     turning = -p[MASS] * r * (p[GRAVITY] * c + shake * s) / (p[CENTROID_INERTIA] + p[MASS] * r * r)
     normal = p[GRAVITY] - r * s * tilting**2 + r * c * turning
@@ -268,17 +275,20 @@ def _stick_or_slip_mode(corner, y, f, p, mu, stick_kind):
 def flight_reset(mode, guard, y, f, p):
     """Return the mode after a landing, a stop or restart of slip, a lift-off, or the end of the chain."""
     if mode == FLIGHT:
+        # the landing overwrites these velocities, which its energy balance needs
         flying_x, flying_y, flying_spin = y[VX], y[VY], y[OMEGA]
         if p[RULE] != FRICTION_RULE:
             touch_down(guard, y, p)
         else:
             touch_down_by_friction(guard, y, p)
         record_landing(guard, flying_x, flying_y, flying_spin, y, p)
+        # slip that is left after the impulse is kinetic; the static test applies to a foot that has stopped
         if p[RULE] == FRICTION_RULE and y[VX] != 0.0:
             return _current_slip_mode(guard, y, p)
         return _stick_or_slip_mode(guard, y, f, p, p[MU], STICK)
     corner = contact_corner(mode)
     if guard == TOUCH:
+        # the model of the paper ends here, without an impact of the base
         if p[RULE] != FRICTION_RULE:
             y[THETA] = 0.0
             return END
@@ -289,6 +299,7 @@ def flight_reset(mode, guard, y, f, p):
     if guard == LIFT:
         take_off(corner, y, p)
         return FLIGHT
+    # guard FRICTION: the slip has come to zero. Kinetic friction may hold the foot, otherwise it slips the other way.
     y[VX] = 0.0
     if contact_kind(mode) >= FLAT_BACKWARD:
         return END

@@ -31,12 +31,14 @@ def continue_after_record(
     Parameters are those of :func:`seisblock.dynamics.integrate`. The ground acceleration jumps from its last sample to zero. Sample numbers
     of the trajectory continue beyond the record.
     """
+    # the sampling interval of the record, so that sample numbers continue beyond it
     count = math.ceil(CHUNK_S / motion.dt) + 1
     zero_motion = Motion(np.zeros((3, count)), motion.dt)
     if start.sample < motion.samples - 1:
         trajectory = integrate(model, motion, parameters, initial, mode, gains=gains, start=start)
     else:
         trajectory = _shift_time(integrate(model, zero_motion, parameters, initial, mode, start=Instant(0, start.tau)), start.sample)
+    # short segments: most runs come to an end within the first
     for _ in range(math.ceil(MAX_FREE_S / CHUNK_S)):
         if trajectory.final_mode < 0:
             break
@@ -150,4 +152,5 @@ class BatchEnds:
         self.end.sample[rows], self.end.tau[rows] = ensemble.end.sample + samples, ensemble.end.tau
         self.failed[rows] = ensemble.failed
         first_change = self.first_event_time[rows]
+        # rows with an event in an earlier part keep its time
         self.first_event_time[rows] = np.where(np.isnan(first_change), ensemble.first_event_time + samples * ensemble.dt, first_change)

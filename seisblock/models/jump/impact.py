@@ -67,6 +67,7 @@ def spin_ratio(block: TwoLayerBlock, rule: str, restitution_x: float, restitutio
     if rule == "printed":
         first, second = _printed_braces(block)
         return (restitution_x * second - restitution_y * first) / block.centroid_inertia
+    # hypothesis: inferred from the tables of the paper, not from mechanics
     if rule == "tables":
         upper_inertia = block.upper_mass * block.upper_height**2 / 12
         return (restitution_y * _printed_braces(block)[0] - restitution_x * upper_inertia) / block.centroid_inertia
@@ -128,6 +129,7 @@ def centroid_rise(speed: float, gravity: float, flight_s: float) -> float:
 
 def foot_rise(block: TwoLayerBlock, takeoff: Launch, gravity: float) -> float:
     """Return the largest height of the lower of both lower corners, m ([Sugimoto2017]_ eq. (8a))."""
+    # the sign of the spin only exchanges the two corners
     y, half, spin = block.centroid_height, block.width / 2, abs(takeoff.spin)
     low, high = 0.0, takeoff.vertical / gravity
     # bisection for the zero of the corner's vertical velocity

@@ -53,6 +53,7 @@ def interpolate_phases(
 
 def _phase_gaps(time: FloatArray, phase: Phase) -> tuple[IntArray, FloatArray]:
     """Return the steps of a phase, (m,), and the fractions of a step at which points are inserted, (k,), none in a long phase."""
+    # both ends of an event have the same time: an interval of length zero has no inner points
     inside = np.flatnonzero((time[:-1] >= phase.start_s) & (time[1:] <= phase.end_s) & (np.diff(time) > 0.0))
     count = -(-POINTS_PER_PHASE[phase.name] // max(inside.size, 1))
     return inside, np.arange(1, count) / count

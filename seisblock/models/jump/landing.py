@@ -80,6 +80,7 @@ def record_landing(corner, vx, vy, omega, y, p):
     energy_before = _energy(vx, vy, omega, p)
     energy_after = _energy(horizontal, vertical, y[OMEGA], p)
     energy_ratio = energy_after / energy_before if energy_before > 0.0 else 0.0
+    # SIDE is 0 before the first landing
     if y[SIDE] == 0.0 or energy_ratio > (y[ENERGY_AFTER] / y[ENERGY_BEFORE] if y[ENERGY_BEFORE] > 0.0 else 0.0):
         y[ENERGY_BEFORE] = energy_before
         y[ENERGY_AFTER] = energy_after
@@ -115,6 +116,7 @@ def touch_down_by_friction(corner, y, p):
     a_tt = 1.0 + ry * ry / k2
     a_tn = -rx * ry / k2
     mu = p[MU_KINETIC]
+    # the state counts the spin counter-clockwise, the impulse equations clockwise
     w = -y[OMEGA]
     u = y[VY] - rx * w
     v = y[VX] + ry * w
@@ -130,6 +132,7 @@ def touch_down_by_friction(corner, y, p):
         rise = a_nn + a_tn * friction_ratio
         gain = a_tn + a_tt * friction_ratio
         # normal impulses at which the corner stops falling, and at which its slip stops
+        # where friction presses the corner down (rise <= 0) the impulse cannot end before the slip has stopped
         end_impulse = -u / rise if rise > 0.0 else np.inf
         stop_impulse = -v / gain if v * gain < 0.0 else np.inf
         impulse = max(min(end_impulse, stop_impulse), 0.0)
@@ -141,6 +144,7 @@ def touch_down_by_friction(corner, y, p):
         # exact zero for a sticking corner, whose velocity change is round-off
         v = 0.0 if v == 0.0 and abs(a_tn) <= mu * a_tt else v + gain * impulse
         break
+    # `touch_down` clears the slip velocity, so that the remaining one is entered after it
     touch_down(corner, y, p)
     y[OMEGA] = -w
     y[VX] = v
@@ -151,6 +155,7 @@ def land_flat_by_friction(y, p):
     """Convert the state about a corner at zero tilt into flat sliding after a plastic impact of the base ([Moreau1988]_)."""
     # the centroid stops from its fall speed about the corner; friction changes its horizontal velocity by at most mu' times that
     fall_speed = p[HALF_WIDTH] * abs(y[OMEGA])
+    # the base takes over the horizontal velocity of the centroid, which leads or lags the foot by h omega
     slip_speed = y[VX] - p[HEIGHT] * y[OMEGA]
     y[THETA] = 0.0
     y[OMEGA] = 0.0

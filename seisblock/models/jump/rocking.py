@@ -41,6 +41,7 @@ def rocking_series(mode, y, f, p, order, c, g):
     # lean = alpha - theta enters through its sine and cosine: s' = -omega c, c' = omega s
     c[SIN, 0] = np.sin(p[ALPHA] - y[THETA])
     c[COS, 0] = np.cos(p[ALPHA] - y[THETA])
+    # z'' is linear between samples, so that only two of its coefficients enter each order
     for k in range(order):
         rate = p[PUSH] * f[0, 0] * c[COS, k] - p[WEIGHT] * c[SIN, k]
         if k > 0:

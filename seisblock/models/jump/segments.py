@@ -110,7 +110,9 @@ def split_segments(motion: Motion, paths: Sequence[ChainPath]) -> tuple[Segment,
         end, x, rise = chain_end(path)
         segments.append(Segment(path.onset_s, end, displacement, total_rise, path))
         time, displacement, total_rise = end, displacement + x, total_rise + rise
+    # only a block that stands after its last chain rests until the end of the record
     if not paths or (paths[-1].is_complete and summarise_chain(paths[-1]).outcome in COMPLETE):
+        # intervals are half-open; one more sampling interval includes the last sample
         segments.append(Segment(time, last + motion.dt, displacement, total_rise))
     return tuple(segments)
 

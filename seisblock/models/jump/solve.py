@@ -203,6 +203,7 @@ def _window_instants(motion: Motion, first: float | None, last: float | None) ->
             start=motion.start_s,
             end=motion.start_s + end,
         )
+    # times given in decimals miss the sample by round-off; such a window starts on the sample
     sample = min(int(begin / motion.dt + SAMPLE_TOLERANCE), motion.samples - 1)
     tau = max(begin - sample * motion.dt, 0.0)
     return Instant(sample, tau if tau > SAMPLE_TOLERANCE * motion.dt else 0.0), finish
@@ -215,11 +216,13 @@ def _run_chains(run: _RunContext, direction: str, drop: float, first: bool, wind
     for begin, finish in sorted(windows, key=lambda window: (window[0].sample, window[0].tau)):
         # a chain that still moves when a window opens ends first
         current_instant = max(current_instant, begin, key=lambda instant: (instant.sample, instant.tau))
+        # a chain may end beyond the record: nothing starts rocking after it
         while current_instant.sample < run.motion.samples - 1 and (onset := _next_onset(run, direction, current_instant)) is not None:
             if onset[0].sample * run.motion.dt + onset[0].tau > finish:
                 break
             paths.append(_run_chain(run, floor_drop, *onset))
             path = paths[-1]
+            # a block that has overturned, or still moves at the time limit, has no further chain
             if not path.is_complete or summarise_chain(path).outcome not in COMPLETE:
                 return paths
             # after a landing the block stands on the ground: no further drop, no mortises
@@ -234,6 +237,7 @@ def _run_chains(run: _RunContext, direction: str, drop: float, first: bool, wind
 def _next_onset(run: _RunContext, direction: str, start: Instant) -> tuple[Instant, float] | None:
     """Return the next onset of rocking and the sign of its acceleration, None without one."""
     thresholds = rocking.rocking_parameters(run.block, run.gravity, direction)
+    # the model at rest stops at its first event, which is the onset
     search = integrate(rocking.ROCKING_MODEL, run.motion, thresholds, [0.0, 0.0], rocking.REST, start=start, keep_path=False)
     if search.status != STOPPED:
         return None
@@ -244,6 +248,7 @@ def _run_chain(run: _RunContext, drop: float, start: Instant, sign: float) -> Ch
     """Solve one chain from its onset, in the frame of its forward direction."""
     motion, block, contact, gains = run.motion, run.block, run.contact, (sign, 0.0, 0.0)
     make_path = partial(ChainPath, motion=motion, block=block, gravity=run.gravity, drop=drop, start=start, sign=sign)
+    # the direction restricts onsets only; rocking itself reads no threshold
     parameters = rocking.rocking_parameters(block, run.gravity, "both")
     rocking_run = continue_after_record(rocking.ROCKING_MODEL, motion, parameters, [0.0, 0.0], rocking.ROCK, gains=gains, start=start)
     if rocking_run.final_mode != rocking.IMPACT:
@@ -251,10 +256,13 @@ def _run_chain(run: _RunContext, drop: float, start: Instant, sign: float) -> Ch
     takeoff = launch(block, float(rocking_run.final[rocking.OMEGA]), run.spin_ratio, contact.restitution_x, contact.restitution_y)
     if not takeoff.jumps:
         return make_path(rocking_path=rocking_run, launch=takeoff, flight_path=None)
+    # the tenons leave their mortises only if the lower foot clears their depth
     is_held = run.tenon > 0.0 and foot_rise(block, takeoff, run.gravity) <= run.tenon
+    # inside the mortises the block falls back onto its pedestal
     drop = 0.0 if is_held else drop
     make_path = partial(make_path, drop=drop, held=is_held)
     parameters = flying.flight_parameters(block, run.gravity, contact.mu, contact.kinetic, drop, motion.dt, run.landing)
+    # the impact happens upright, at the place and height of rest
     initial_state = [0.0, takeoff.spin, 0.0, takeoff.horizontal, 0.0, takeoff.vertical, *[0.0] * 4]
     flight_run = continue_after_record(FLIGHT_MODEL, motion, parameters, initial_state, flying.FLIGHT, gains=gains, start=rocking_run.end)
     if flight_run.final_mode == flying.JAMMED:
