@@ -50,6 +50,7 @@ def assemble(
     if len(starts) > 1:
         message = "{name}: start times differ ({starts}), so the files are not one recording; read them separately"
         raise RecordError(message, name=name, starts=starts)
+    # rounded intervals of one recording agree exactly; different ones would shift the components against each other
     intervals = sorted({p.dt for p in selected_parts})
     if len(intervals) > 1:
         interval_texts = [f"{dt:g} s" for dt in intervals]
@@ -175,6 +176,7 @@ def _align(name: str, parts: Sequence[Record]) -> tuple[list[Record], tuple[str,
         return list(parts), ()
     codes = [p.codes[0] for p in parts]
     latest, dt = max(starts), parts[0].dt
+    # shifts of whole samples: interpolation would smooth the peaks
     lags = [(latest - start).total_seconds() / dt for start in starts]
     skips = [round(lag) for lag in lags]
     count = min(p.samples - skip for p, skip in zip(parts, skips, strict=True))
@@ -222,6 +224,7 @@ def _select_level(name: str, parts: Sequence[Record], level: str | None) -> tupl
 
 def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component], list[str]]:
     """Return components trimmed to equal length if they differ slightly, and the history entries."""
+    # a recorder may add a few samples to one channel; a large excess means a damaged file
     lengths = [c.acceleration.size for c in components]
     min_length = min(lengths)
     if max(lengths) == min_length or max(lengths) > (1.0 + TRIM_TOLERANCE) * min_length:

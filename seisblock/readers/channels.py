@@ -50,6 +50,7 @@ def split_by_location(parts: Sequence[Record], *, structure: bool = False) -> li
     ``metadata["place"]`` the place. `structure` is True if the channels are known to be in a structure, possibly spread over several files.
     """
     codes = [part.codes[0] for part in parts]
+    # two channels of one direction cannot be at one place of a free field
     is_one_station = len(parts) <= MAX_CHANNELS and len(set(codes)) == len(parts)
     if is_one_station and not (structure and all(part.metadata.get("place") for part in parts)):
         return list(parts)

@@ -126,6 +126,7 @@ def find_channel(inventory: Any, trace: Any) -> Any:
     ]
     if not channels:
         return None
+    # instruments are exchanged: the sensitivity must be that of the recording
     matching = [
         channel
         for channel in channels
@@ -199,6 +200,7 @@ def remove_full_response(trace: Any, channel: Any, name: str) -> tuple[FloatArra
     """
     stats = trace.stats
     nyquist_hz = 0.5 / stats.delta
+    # below this band a deconvolution amplifies noise and drift
     low_hz = max(LOWEST_HZ, PERIODS / (stats.npts * stats.delta))
     high_hz, end_hz = (share * nyquist_hz for share in UPPER_SHARES)
     if not channel.response.response_stages:
@@ -210,6 +212,8 @@ def remove_full_response(trace: Any, channel: Any, name: str) -> tuple[FloatArra
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
+            # a water level would hide a frequency at which the instrument records nothing; the band excludes it
+            # instead
             copy.remove_response(output="ACC", pre_filt=(BAND_TAPER * low_hz, low_hz, high_hz, end_hz), water_level=None)
     except Exception as error:  # obspy raises bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__

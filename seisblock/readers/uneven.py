@@ -41,6 +41,7 @@ def resample_pairs(
         place = int(np.argmin(steps)) if steps.size else 0
         message = "{name}: time {time:g} s is followed by an earlier time; expected increasing times"
         raise RecordFormatError(message, name=name, time=float(times[place]))
+    # a mean interval is known better than a single step; simple ratios are tried first
     mean = float(times[-1] - times[0]) / steps.size
     for interval in (1.0 / round(1.0 / mean) if mean < 0.5 else mean, float(f"{mean:.4g}"), mean):
         if np.abs(times - times[0] - interval * np.arange(times.size)).max() <= _EVEN_SLACK * resolution:
@@ -50,6 +51,7 @@ def resample_pairs(
     if count > MAX_RESAMPLED:
         raise RecordFormatError("{name}: {count} samples after resampling, too many; check the times", name=name, count=count)
     # of equal times, the last value
+    # film records hold vertical strokes, two values at one time
     unique_times, places = np.unique(times[::-1], return_index=True)
     grid = times[0] + interval * np.arange(count)
     samples = [np.interp(grid, unique_times, row[::-1][places]) for row in rows]

@@ -30,6 +30,7 @@ def highpass_sections(dt: float, hz: float) -> FloatArray:
     hz : float, Hz
         Corner frequency, below half the sampling rate.
     """
+    # the bilinear transform compresses frequencies and would lower the corner, hence the tangent
     prewarped = math.tan(math.pi * hz * dt)
     # Butterworth pole pairs: damping ratios cos of the pole angles
     damping = np.cos(np.pi * (np.arange(N_SECTIONS) + 0.5) / (2 * N_SECTIONS))

@@ -42,6 +42,7 @@ def filter_weights(samples: int, dt: float, gain: Callable[[FloatArray], FloatAr
     for lines in _blocks(len(weights), width):
         # frequency index at [row, column] after both transforms; indices above the half are negative frequencies
         number = np.arange(len(weights))[lines, None] + height * np.arange(width)
+        # a real signal has conjugate coefficients at frequencies of either sign: one gain serves both
         weights[lines] = gain(np.minimum(number, samples - number) / (samples * dt))
     return weights
 
@@ -72,6 +73,7 @@ def add_filtered_square(total: FloatArray, samples: FloatArray, weights: FloatAr
         if width == 1:
             spectrum[lines] *= weights[lines]
             continue
+        # the twiddle factors join the transforms of the columns into one of the whole record (Cooley and Tukey)
         twiddle = np.exp(-2j * math.pi / samples.size * (np.arange(len(spectrum))[lines, None] * np.arange(width)))
         weighted_block = np.fft.fft(spectrum[lines] * twiddle, axis=1)
         weighted_block *= weights[lines]
@@ -97,6 +99,7 @@ def transform_mib(samples: int) -> int:
     (0, 1878)
     """
     height = samples // _table_width(samples)
+    # short records and smooth lengths need little more memory than the record itself
     if samples <= LONG_TRANSFORM or _largest_prime(height) < LARGE_PRIME:
         return 0
     return (BYTES_PER_FILTERED_SAMPLE * samples + BYTES_PER_CONVOLVED_SAMPLE * height) // MIB

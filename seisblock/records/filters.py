@@ -51,6 +51,7 @@ def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArr
     sections, pad = _design(dt, hz)
     row = _pad(acceleration, dt, hz, pad, pad)
     # the phase shifts of both directions cancel
+    # forwards and backwards the amplitude at the corner is 1/sqrt(2) squared, one half
     for backwards in (False, True):
         run_sections(sections, row, steady_state=True, backwards=backwards)
     return row[pad : pad + acceleration.size]
@@ -111,6 +112,7 @@ def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[fl
     n = acceleration.size
     length = int(min(n, max(2.0, np.rint(BASELINE_PERIODS / (hz * dt)))))
     # half-sample offset keeps all weights positive, so that short records stay well-conditioned
+    # Hann window at the sample centres
     taper = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
     # the weights are symmetric about the middle, so the normal equations for level and slope decouple
     ends = ((_normalized_positions(n, 0, length), acceleration[:length]), (_normalized_positions(n, n - length, n), acceleration[-length:]))
@@ -167,6 +169,7 @@ def _fill_mirror_image(row: FloatArray, pad_before: int, samples: int) -> None:
         (row[pad_before + samples :], np.arange(samples, row.size - pad_before)),
     ):
         # the extension has a period of twice the record; its second half runs backwards with reversed sign
+        # the extension reaches beyond the record where the corner period is long, and repeats
         position %= 2 * samples
         is_mirrored = position >= samples
         end[:] = interior[np.where(is_mirrored, 2 * samples - 1 - position, position)]

@@ -193,6 +193,7 @@ def _floor_acceleration(component: Component, ground: FloatArray, dt: float, sto
         return ground
     absolute = _absolute_acceleration(oscillator_path(ground, dt, storey.omega, storey.damping), storey)
     # share 1: return the oscillator's own acceleration without the rounding of the sum below
+    # relative motion of the floor over that of the oscillator, added to the motion of the ground
     return absolute if storey.share == 1.0 else ground + storey.share * (absolute - ground)
 
 

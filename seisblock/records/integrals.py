@@ -43,6 +43,7 @@ def velocities(acceleration: FloatArray, dt: float, initial_velocity: float = 0.
     """
     carry = 0.0
     for begin, end in _blocks(acceleration.size):
+        # the last sample of a chunk is the first of the next
         velocity = _velocity_block(acceleration[begin : end + 1], dt, carry)
         carry = float(velocity[-1])
         # added after the carry is stored, so that it enters once

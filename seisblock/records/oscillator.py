@@ -28,6 +28,8 @@ def exact_step(dt: float, omega: float, damping: float) -> FloatArray:
     """
     system = np.zeros((4, 4))
     system[0, 1] = system[2, 3] = 1.0
+    # the ground acceleration and its slope are states of the system, so that one matrix exponential holds the forced
+    # response as well
     system[1, :3] = -(omega**2), -2.0 * damping * omega, -1.0
     step = _matrix_exponential(system * dt)
     # the fourth variable is the slope (a1 - a0)/dt

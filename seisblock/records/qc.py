@@ -100,12 +100,14 @@ def _check_component(component: Component, dt: float, *, is_interpolated: bool) 
     if peak == 0.0:
         return
     mean = float(a.mean())
+    # an offset acts on a body as a constant force and may overturn it, where the record has none
     if abs(mean) > OFFSET_RATIO * peak:
         yield QCFlag("offset", _offset_message(code, mean, peak), code)
     if peak > IMPLAUSIBLE_PGA:
         text = lazy_gettext("{component}: PGA {pga:.4g} m/s^2 exceeds 5 g; check the unit", component=code, pga=peak)
         yield QCFlag("size", text, code)
     starts, ends = _find_flat_runs(a)
+    # interpolated samples are straight between those of the file, which looks like a coarse resolution
     if starts.size and not is_interpolated:
         yield from _check_flat_runs(code, a, dt, peak, starts, ends)
     yield from _check_repetition(code, a, dt)
@@ -150,6 +152,7 @@ def _check_signs(code: str, a: FloatArray, dt: float, peak: float) -> Iterator[Q
     """Yield a flag for minus signs that are lost, in the whole component or in single samples."""
     if a.size < _MIN_PULSE_SAMPLES:
         return
+    # a horizontal component of one sign is impossible for shaking, unless it is a short pulse
     if a.min() >= 0.0 or a.max() <= 0.0:
         size = np.abs(a)
         is_minimum = (size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:]) & (size[1:-1] < ZERO_RATIO * peak)
@@ -241,6 +244,7 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
 
 def _resolution(a: FloatArray) -> float:
     """Return the smallest difference of two values among the samples around the peak."""
+    # around the peak, where all digits of the resolution are in use
     middle = int(a.argmax())
     around = a[max(middle - _RESOLUTION_SAMPLES, 0) : middle + _RESOLUTION_SAMPLES]
     smallest = float(np.diff(np.unique(around)).min(initial=np.inf))

@@ -69,6 +69,7 @@ def _find_in_block(a: FloatArray) -> list[Repetition]:
             hashes *= _BASE
             hashes += bits[offset : offset + hashes.size] >> np.uint64(7)
             hashes ^= bits[offset : offset + hashes.size] << np.uint64(11)
+    # stable sorting keeps windows with one hash in order of time
     order = np.argsort(hashes, kind="stable")
     ordered = hashes[order]
     same = np.flatnonzero(ordered[1:] == ordered[:-1])
@@ -109,6 +110,7 @@ def _is_periodic(hashes: NDArray[np.uint64], starts: IntArray) -> bool:
 def _merge_windows(a: FloatArray, starts: IntArray, seconds: IntArray) -> list[Repetition]:
     """Return repetitions of consecutive windows with one lag, verified sample by sample."""
     repetitions: list[Repetition] = []
+    # overlapping windows of one repetition have the same lag and follow each other
     for start, second in zip(starts.tolist(), seconds.tolist(), strict=True):
         last = repetitions[-1] if repetitions else None
         lag = second - start

@@ -73,6 +73,7 @@ def _find_end_spikes(acceleration: FloatArray) -> list[int]:
         return []
     indices = []
     for index, step in ((0, np.abs(np.diff(acceleration[: _MARGIN + 1]))), (-1, np.abs(np.diff(acceleration[-_MARGIN - 1 :]))[::-1])):
+        # the first and the last sample have one neighbour only: the step to it must stand out by itself
         if step[0] > max(MIN_SURPRISE, SURPRISE_RATIO * float(np.median(step[EXCLUDED_STEPS:])), STEEPNESS_RATIO * float(step[1])):
             indices.append(index % acceleration.size)
     return indices
@@ -96,6 +97,7 @@ def _find_jumps(step: FloatArray) -> Iterator[int]:
     """Yield indices of the first samples after isolated steps."""
     for i in _find_outliers(np.abs(step[1:-1] - 0.5 * (step[:-2] + step[2:]))):
         k = i + 1
+        # an isolated step stands alone; in shaking of high frequency its neighbours are as steep
         if abs(step[k]) > STEEPNESS_RATIO * max(abs(step[k - 1]), abs(step[k + 1])):
             yield k + 1
 

@@ -235,6 +235,7 @@ def sample(
 def draw_samples(runs: int, seed: int, *, stones: int = 0) -> FloatArray:
     """Return the draws of samples, uniform in [-1, 1], (runs, 8 + stones)."""
     rng = np.random.default_rng(checks.seed(seed))
+    # a seed must give the same block, whatever the number of stones, so that models can be compared sample by sample
     # one block of columns after the other, so that those of a block do not depend on what is drawn after them
     widths = (AZIMUTH + 1, 1, 1, stones)
     return np.column_stack([rng.uniform(-1.0, 1.0, (runs, width)) for width in widths])
@@ -250,6 +251,7 @@ def sample_blocks(block: Block, variation: ParameterVariation, draws: FloatArray
     draws : (m, 8) array
         From :func:`draw_samples`.
     """
+    # one factor scales the plan, a second one changes the slenderness alone
     wide = (1.0 + variation.size * draws[:, WIDTH]) * (1.0 + variation.slenderness * draws[:, SLENDERNESS])
     return samples(block, variation.inset, wide=wide, tall=1.0 + variation.size * draws[:, HEIGHT], worn=draws[:, INSET])
 
@@ -265,6 +267,7 @@ def sample_gains(motion: Motion, variation: ParameterVariation, draws: FloatArra
     vertical : bool, float or None
         As in the options of a solver.
     """
+    # the amplitude acts on all components alike: it stands for the scatter of a site, not of a direction
     amplitude = 1.0 + variation.amplitude * draws[:, AMPLITUDE]
     # no rotation if the transverse motion is unknown (zero): it would only reduce the amplitude
     angle = np.radians(variation.azimuth_deg) * draws[:, AZIMUTH] * bool(motion.transverse.any())
@@ -408,6 +411,7 @@ def sample_motion(motion: Motion, variation: ParameterVariation, draw: FloatArra
     """
     factor = 1.0 + variation.amplitude * draw[AMPLITUDE]
     angle = math.radians(variation.azimuth_deg * draw[AZIMUTH]) * bool(motion.transverse.any())
+    # a rotation of the ground motion stands for an unknown orientation of the object
     c, s = factor * math.cos(angle), factor * math.sin(angle)
     # one copy of the motion per thread; released with its run
     longitudinal, transverse = motion.horizontal, motion.transverse
@@ -428,6 +432,7 @@ def _run_respond(
     respond_params(block, options)  # validates the nominal values: samples are clipped into their ranges
     params, gains = sample_respond_params(block, variation, draws, options), sample_gains(motion, variation, draws, options.vertical)
     parts: list[RespondBatchResult] = []
+    # chunks allow progress reports and cancellation; the rows are independent of each other
     for first in range(0, len(draws), CHUNK_SIZE):
         part = slice(first, first + CHUNK_SIZE)
         parts.append(respond_many(params[part], motion, gains=gains[part], settle_s=options.settle_s, workers=workers))
@@ -479,6 +484,7 @@ def _run_stack(
             return error
 
     results = list(map_threads(work, list(draws), progress=progress, workers=workers))
+    # samples without a result are counted apart, neither as fallen nor as standing
     outcomes = tuple(result for result in results if isinstance(result, StackOutcome))
     if not outcomes:
         raise next(result for result in results if isinstance(result, SolverError))

@@ -39,6 +39,7 @@ def solve_6x6(a, x):
         for i in range(k + 1, 6):
             if abs(a[i, k]) > largest:
                 pivot, largest = i, abs(a[i, k])
+        # singular, or not finite: the comparison is false for NaN as well
         if not largest > 0.0:
             return False
         if pivot != k:
@@ -61,6 +62,7 @@ def solve_6x6(a, x):
 @kernel(_t.boolean(_t.int64, _t.float64, VECTOR, VECTOR, MATRIX, MATRIX, _t.float64, _t.float64, VECTOR, MATRIX, VECTOR))
 def _newton(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, velocity, system, change):
     """Iterate from the given velocity and impulses; return whether the residual velocities fell below the tolerance."""
+    # `turning` converts an angular momentum left over into a velocity, so that one tolerance serves all residuals
     rho, turning = PENALTY * mass, math.sqrt(abs(inertia[0]) * mass)
     for c in range(count):
         impulses[c, 3], impulses[c, 13] = 0.0, 0.0
@@ -84,6 +86,7 @@ def _newton(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, v
             old0, old1, old2 = impulses[c, 0], impulses[c, 1], impulses[c, 2]
             # the contact law decides with the parameter of the projections, the linear system has the far larger penalty
             p0, p1, p2, tangential, cosine, sine, status = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+            # the sign of this argument of the projection decides whether the contact presses
             pressure = old2 - mass * (u2 + shift)
             presses = 1.0 if pressure > 0.0 else 0.0
             p2 = presses * (old2 - rho * (u2 + shift))
@@ -156,6 +159,7 @@ def _newton(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, v
         settled = not guessed and (count > 0 or iteration > 0)
         if settled and max(error, abs(f3) / turning, abs(f4) / turning, abs(f5) / turning) <= accepted:
             return True
+        # singular, or overflowed: the sweeps take over
         if not solve_6x6(system, change):
             return False
         for i in range(6):
@@ -170,6 +174,7 @@ def _newton(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, v
             u0 = change[0] + change[4] * z - change[5] * y
             u1 = change[1] + change[5] * x - change[3] * z
             u2 = change[2] + change[3] * y - change[4] * x
+            # impulses of the linear model at the end of the Newton step
             impulses[c, 2] = impulses[c, 9] - rho * presses * u2
             if status == 1.0:
                 # sticking that pulls: with much friction the contact slips although its free velocity lies in the cone
@@ -203,6 +208,7 @@ def _invert(inertia, out, scratch, change):
 @kernel(_t.boolean(_t.int64, _t.int64, _t.float64, VECTOR, VECTOR, MATRIX, MATRIX, _t.float64, _t.float64, VECTOR, VECTOR))
 def _sweep(sweeps, count, mass, inertia, momentum, contacts, impulses, mu, tolerance, velocity, inverse):
     """Projected Gauss-Seidel from the given impulses, forwards and backwards in turn; return whether it converged ([Jean1999]_)."""
+    # start from the velocities that belong to the given impulses
     t0, t1, t2 = momentum[3], momentum[4], momentum[5]
     for i in range(3):
         velocity[i] = momentum[i]
@@ -219,6 +225,7 @@ def _sweep(sweeps, count, mass, inertia, momentum, contacts, impulses, mu, toler
     for sweep in range(sweeps):
         largest = 0.0
         for k in range(count):
+            # forwards and backwards in turn: no contact is always the last to be satisfied
             c = k if sweep % 2 == 0 else count - 1 - k
             x, y, z = contacts[c, 0], contacts[c, 1], contacts[c, 2]
             for axis in range(3):
@@ -240,6 +247,7 @@ def _sweep(sweeps, count, mass, inertia, momentum, contacts, impulses, mu, toler
                 else:
                     other = impulses[c, 1 if axis == 1 else 0]
                     friction = mu * impulses[c, 2] + contacts[c, 4]
+                    # friction lies in a disc: one tangent is limited to what the other leaves of it
                     limit = math.sqrt(max(friction * friction - other * other, 0.0))
                     new = min(max(old - u / weight, -limit), limit)
                 difference = new - old
@@ -267,6 +275,7 @@ def _solve(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, ve
         impulses[c, 10], impulses[c, 11], impulses[c, 12] = 0.0, 0.0, 0.0
     sweeps = FIRST_SWEEPS
     while sweeps * count <= MAX_UPDATES:
+        # Newton's iterations overwrite the impulses; the sweeps continue from their own
         for c in range(count):
             impulses[c, 0], impulses[c, 1], impulses[c, 2] = impulses[c, 10], impulses[c, 11], impulses[c, 12]
         if _sweep(sweeps, count, mass, inertia, momentum, contacts, impulses, mu, tolerance, velocity, inverse):
@@ -276,6 +285,7 @@ def _solve(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, ve
         if _newton(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, velocity, system, change):
             return True
         sweeps *= 2
+    # not converged: impulses of the last sweeps, with the velocity that belongs to them
     for c in range(count):
         impulses[c, 0], impulses[c, 1], impulses[c, 2] = impulses[c, 10], impulses[c, 11], impulses[c, 12]
     return _sweep(1, count, mass, inertia, momentum, contacts, impulses, mu, tolerance, velocity, inverse)

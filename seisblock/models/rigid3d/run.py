@@ -76,6 +76,7 @@ def _stays(a0, a1, a2, z, body, scratch):
     Both conditions are linear or convex in the acceleration: if they hold at two samples, they hold between them.
     """
     mu = body.constants[MU]
+    # sliding, or a ground that falls away from the body
     if not (a2 > 0.0 and a0 * a0 + a1 * a1 <= mu * mu * a2 * a2):
         return False
     for k in range(scratch.counters[EDGES]):
@@ -101,6 +102,7 @@ def _find_support(count, body, scratch):
     for k in range(count):
         best, best_length, is_edge = -1, 0.0, False
         # the neighbour of k in the direction that leaves no vertex on the right
+        # few vertices touch at once: the search over pairs needs no sorting
         for j in range(count):
             dx, dy = points[j, 0] - points[k, 0], points[j, 1] - points[k, 1]
             length = math.sqrt(dx * dx + dy * dy)
@@ -111,15 +113,19 @@ def _find_support(count, body, scratch):
                 if dx * (points[i, 1] - points[k, 1]) - dy * (points[i, 0] - points[k, 0]) < -tolerance * length:
                     is_edge = False
                     break
+            # of vertices in line with the edge the farthest one ends it
             if is_edge and length > best_length:
                 best, best_length = j, length
         if best < 0:
             continue
         dx, dy = points[best, 0] - points[k, 0], points[best, 1] - points[k, 1]
+        # outward normal: all vertices lie on the left of the edge
         n0, n1 = dy / best_length, -dx / best_length
         if edges < scratch.support.shape[0]:
             scratch.support[edges, 0], scratch.support[edges, 1] = n0, n1
             scratch.support[edges, 2] = n0 * points[k, 0] + n1 * points[k, 1]
+            # distance of the edge from the point below the centre of gravity; not positive where that point lies
+            # outside the base
             if not scratch.support[edges, 2] > 0.0:
                 return False
             edges += 1
@@ -144,10 +150,12 @@ def _track(time, has_landed, count, body, scratch):
                 past = True
                 break
     counters[PAST_BASE] = 1 if past else 0
+    # back over its base, the body has not overturned, however far it leant
     if not past:
         ledger[OVERTURNING_TIME] = math.nan
     elif math.isnan(ledger[OVERTURNING_TIME]):
         landed = r[8] <= 0.0
+        # overturned when something else than the base touches the ground, or beyond 90 degrees
         if has_landed:
             for k in range(count):
                 if not body.is_base[scratch.ids[k]]:
@@ -201,10 +209,13 @@ def _advance(motion, dt, s, start, body, scratch):
     list_near(y, margin, body, scratch)
     while t < dt:
         spin = math.sqrt(y[W] * y[W] + y[W + 1] * y[W + 1] + y[W + 2] * y[W + 2])
+        # a step may neither turn the body by much nor exceed a small part of a rocking period
         parts = math.ceil((dt - t) * max(spin, c[RATE]) / MAX_ANGLE)
         h = (dt - t) / max(parts, 1.0)
         capped = impacts >= MAX_IMPACTS
         reach = touching
+        # too many impacts within one interval: whatever could reach the ground during the step becomes a contact of
+        # it
         if capped:
             speed = math.sqrt(y[V] * y[V] + y[V + 1] * y[V + 1] + y[V + 2] * y[V + 2])
             reach += h * (speed + (spin + h * c[RATE] * c[RATE]) * c[SIZE] + h * 3.0 * c[GRAVITY])
@@ -215,6 +226,7 @@ def _advance(motion, dt, s, start, body, scratch):
         low, low_value, high, high_value = 0.0, 0.0, h, 0.0
         size = h
         for attempt in range(MAX_ROOT_STEPS):
+            # the record is linear between samples, so that the value at the middle is the mean over the step
             fraction = (t + 0.5 * size) / dt
             a0, a1 = _ground(motion, 0, s, fraction), _ground(motion, 1, s, fraction)
             a2 = _ground(motion, 2, s, fraction)
@@ -228,10 +240,12 @@ def _advance(motion, dt, s, start, body, scratch):
                     list_near(y, margin if path <= margin else math.inf, body, scratch)
             value = _clearance(count, body, scratch)
             if attempt == 0:
+                # no free vertex has come below the ground
                 if value >= -0.25 * touching:
                     break
                 struck = True
                 high_value = value
+                # the root lies between the present heights and those at the end of the step
                 low_value = math.inf
                 for k in range(scratch.counters[NEAR]):
                     i = scratch.near[k]
@@ -249,21 +263,27 @@ def _advance(motion, dt, s, start, body, scratch):
                     low_value *= 0.5
                 high, high_value = size, value
             size = low + (high - low) * low_value / (low_value - high_value)
+            # Illinois' method slows down where the height is far from linear in the step
             if attempt > 20:
                 size = 0.5 * (low + high)
         ledger[PATH] += _path(scratch, body)
+        # work of the inertia forces alone; gravity is in the potential energy
         work = -c[MASS] * (a0 * (trial[X] - y[X]) + a1 * (trial[X + 1] - y[X + 1]) + a2 * (trial[X + 2] - y[X + 2]))
         for i in range(STATE_SIZE):
             y[i] = trial[i]
+        # exactly the end of the interval, without accumulated round-off
         t = t + size if struck or size < dt - t else dt
         update_heights(y, body, scratch)
+        # the mean velocity of a contact vanishes, which leaves its end velocity opposite to that at the start
         if count > 0:
             solved = end_contacts(y, count, body, scratch) and solved
         count = find_contacts(touching, scratch)
+        # vertices that touch and still approach are stopped, by a plastic impact unless one has just struck
         if count > 0:
             solved = resolve_impact(y, count, struck, body, scratch) and solved
         change = mechanical_energy(y, body) - energy - work
         ledger[WORK] += work
+        # contacts and impacts only dissipate; what they create is an error, which the result reports
         if change > 0.0:
             ledger[CREATED] += change
         else:
@@ -275,12 +295,15 @@ def _advance(motion, dt, s, start, body, scratch):
             ledger[IMPACTS] += 1.0
             if impacts == MAX_IMPACTS:
                 ledger[CAPPED] += 1.0
+            # the impact has changed the spin: the last angular acceleration predicts nothing
             y[ALPHA], y[ALPHA + 1], y[ALPHA + 2] = 0.0, 0.0, 0.0
         _track(s * dt + t, struck, count, body, scratch)
         if not math.isfinite(y[X + 2] + y[Q] + y[V] + y[W]):
             return False
+        # rest needs a polygon of support
         if count >= 3:
             squared = y[V] * y[V] + y[V + 1] * y[V + 1] + y[V + 2] * y[V + 2]
+            # the spin counts with the speed of the farthest vertex
             squared += (y[W] * y[W] + y[W + 1] * y[W + 1] + y[W + 2] * y[W + 2]) * c[SIZE] * c[SIZE]
             if squared <= c[SPEED] * c[SPEED] and _find_support(count, body, scratch):
                 fraction = t / dt
@@ -290,6 +313,7 @@ def _advance(motion, dt, s, start, body, scratch):
                         y[V + i], y[W + i], y[ALPHA + i] = 0.0, 0.0, 0.0
                     counters[AT_REST] = 1
                     ledger[REST_TIME] = s * dt + t
+                    # nothing moves a body at rest after the record
                     if s + 1 >= motion.shape[1]:
                         return True
                     t = _rest_until(motion, dt, s, t, body, scratch)
@@ -301,6 +325,7 @@ def _rest_until(motion, dt, s, start, body, scratch):
     """Return the time within interval `s` until which a body at rest stays, `dt` if to its end; clear `AT_REST` if it starts to move."""
     c, z = body.constants, scratch.state[X + 2]
     g = c[GRAVITY]
+    # the conditions are convex: holding at both ends, they hold in between
     if _stays(_ground(motion, 0, s, 1.0), _ground(motion, 1, s, 1.0), _ground(motion, 2, s, 1.0) + g, z, body, scratch):
         return dt
     low, high = start / dt, 1.0
@@ -327,6 +352,7 @@ def start_run(body, scratch):
     if squared == 0.0 and count >= 3 and _find_support(count, body, scratch):
         scratch.counters[AT_REST] = 1
         ledger[REST_TIME] = 0.0
+    # a body that starts with a velocity into the ground begins with an impact
     elif count > 0 and squared > 0.0:
         energy = mechanical_energy(y, body)
         resolve_impact(y, count, True, body, scratch)
@@ -369,6 +395,7 @@ def run_rigid3d(motion, dt, last, budget, stop_at_fall, body, scratch, rows):
             if _stays(0.0, 0.0, g, y[X + 2], body, scratch):
                 return RECORD_ENDED
             counters[AT_REST] = 0
+        # the limit serves bodies that never come to rest, such as a rolling ball
         if s >= last:
             return STOPPED
         start = 0.0

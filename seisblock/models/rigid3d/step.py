@@ -84,6 +84,7 @@ def list_near(y, margin, body, scratch):
 
     Until a vertex has moved by the margin, the others cannot reach the ground.
     """
+    # far vertices are not tested in every step, which counts for scans of thousands of vertices
     rotation_matrix(y, scratch.rotation)
     r, vertices, heights, level = scratch.rotation, body.vertices, scratch.heights, y[X + 2]
     r0, r1, r2, count = r[6], r[7], r[8], 0
@@ -154,16 +155,20 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
     contacts, impulses, velocity, momentum = scratch.contacts, scratch.impulses, scratch.velocity, scratch.momentum
     mass, trial = c[MASS], scratch.trial
     _spatial_inertia(body, scratch)
+    # the state keeps the spin in the body's axes; the equations of a step are those of the ground's
     s0 = r[0] * y[W] + r[1] * y[W + 1] + r[2] * y[W + 2]
     s1 = r[3] * y[W] + r[4] * y[W + 1] + r[5] * y[W + 2]
     s2 = r[6] * y[W] + r[7] * y[W + 1] + r[8] * y[W + 2]
+    # the unknown is the mean velocity, v+ = 2 v_m - v: hence twice the mass, and twice the old momentum
     momentum[0] = mass * (2.0 * y[V] - h * a0)
     momentum[1] = mass * (2.0 * y[V + 1] - h * a1)
     momentum[2] = mass * (2.0 * y[V + 2] - h * a2)
     for i in range(3):
         velocity[i] = momentum[i] / (2.0 * mass)
     velocity[3], velocity[4], velocity[5] = s0, s1, s2
+    # prediction from the last angular acceleration, for fewer passes
     w0, w1, w2 = s0 + 0.5 * h * y[ALPHA], s1 + 0.5 * h * y[ALPHA + 1], s2 + 0.5 * h * y[ALPHA + 2]
+    # a start without impulses shares a common load evenly, see ``contact``
     for i in range(count):
         impulses[i, 0], impulses[i, 1], impulses[i, 2] = 0.0, 0.0, 0.0
     converged, frozen, polished = False, False, count > 0
@@ -203,6 +208,7 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
             contacts[k, 0] = left[0] * x0 + left[1] * x1 + left[2] * x2
             contacts[k, 1] = left[3] * x0 + left[4] * x1 + left[5] * x2
             contacts[k, 2] = left[6] * x0 + left[7] * x1 + left[8] * x2
+            # a vertex above the ground may come down to it within the step, not further
             contacts[k, 3], contacts[k, 4] = max(scratch.heights[i], 0.0) / h, 0.0
             if frozen:
                 p0, p1, p2 = impulses[k, 0], impulses[k, 1], impulses[k, 2]
@@ -223,6 +229,7 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
             scratch.change,
             scratch.inverse,
         )
+        # the contacts enter the rotation by their arms, which depend on the mean spin: hence the passes
         difference = h * max(abs(velocity[3] - w0), abs(velocity[4] - w1), abs(velocity[5] - w2))
         w0, w1, w2 = velocity[3], velocity[4], velocity[5]
         if difference > PASS_TOLERANCE and not frozen and (not solved or turn >= FREE_PASSES):
@@ -243,9 +250,11 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
         slides = impulses[k, 0] ** 2 + impulses[k, 1] ** 2 >= (1.0 - STICKING) * friction * friction
         contacts[k, 4] = 0.0 if slides else friction
     for i in range(3):
+        # the mean velocity moves the body exactly: a contact that holds keeps its place
         trial[X + i] = y[X + i] + h * velocity[i]
         trial[V + i] = 2.0 * velocity[i] - y[V + i]
         trial[W + i] = 2.0 * (r[i] * w0 + r[3 + i] * w1 + r[6 + i] * w2) - y[W + i]
+    # kept for the prediction of the next step
     trial[ALPHA], trial[ALPHA + 1], trial[ALPHA + 2] = 2.0 * (w0 - s0) / h, 2.0 * (w1 - s1) / h, 2.0 * (w2 - s2) / h
     # Cayley's map as a quaternion: (1, h w/2), normalised
     b, d, e = 0.5 * h * w0, 0.5 * h * w1, 0.5 * h * w2
@@ -254,6 +263,7 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
     t1 = q1 + b * q0 + d * q3 - e * q2
     t2 = q2 + d * q0 + e * q1 - b * q3
     t3 = q3 + e * q0 + b * q2 - d * q1
+    # the quaternion has the norm sqrt(1 + |h w/2|^2)
     norm = 1.0 / math.sqrt(t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3)
     trial[Q], trial[Q + 1], trial[Q + 2], trial[Q + 3] = t0 * norm, t1 * norm, t2 * norm, t3 * norm
     return converged
@@ -281,6 +291,7 @@ def _impact(y, count, restitution, holds, body, scratch):
         contacts[k, 0] = r[0] * x + r[1] * y_ + r[2] * z
         contacts[k, 1] = r[3] * x + r[4] * y_ + r[5] * z
         contacts[k, 2] = r[6] * x + r[7] * y_ + r[8] * z
+        # only an approaching vertex rebounds: a separating one needs no impulse
         approach = max(-(y[V + 2] + s0 * contacts[k, 1] - s1 * contacts[k, 0]), 0.0)
         fastest = max(fastest, approach)
         contacts[k, 3] = -restitution * approach
@@ -290,6 +301,7 @@ def _impact(y, count, restitution, holds, body, scratch):
         else:
             contacts[k, 4] = 0.0
         scratch.impulses[k, 0], scratch.impulses[k, 1], scratch.impulses[k, 2] = 0.0, 0.0, 0.0
+    # slow rebounds are plastic: their sequence would not end within the record
     if not holds and restitution * fastest <= BOUNCE_RATIO * c[SPEED]:
         for k in range(count):
             contacts[k, 3] = 0.0
@@ -307,6 +319,7 @@ def _impact(y, count, restitution, holds, body, scratch):
         scratch.change,
         scratch.inverse,
     )
+    # back to the body's axes
     for i in range(3):
         y[V + i] = velocity[i]
         y[W + i] = r[i] * velocity[3] + r[3 + i] * velocity[4] + r[6 + i] * velocity[5]
@@ -331,6 +344,7 @@ def resolve_impact(y, count, struck, body, scratch):
     restitution = body.constants[RESTITUTION] if struck else 0.0
     if restitution == 0.0:
         return _impact(y, count, 0.0, False, body, scratch)
+    # `trial` is free between steps and holds the velocities before the impact
     before = scratch.trial
     for i in range(STATE_SIZE):
         before[i] = y[i]

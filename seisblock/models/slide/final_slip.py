@@ -33,10 +33,13 @@ def slip_at_rest(state: Sequence[float], mode: int, p: Sequence[float]) -> float
         side = math.copysign(1.0, v)
         pull = _sliding_acceleration(side, level, p)
         foot = p[DOWNHILL] * p[FOOT_POSITION]
+        # on the slope the foot lies downhill, on the level uphill
         reaches_foot = side * p[DOWNHILL] * (1.0 if level == 0 else -1.0) > 0.0 and math.isfinite(foot)
+        # distance to a stop under constant deceleration; none if friction does not brake
         stop = v * v / (-2.0 * side * pull) if side * pull < 0.0 else math.inf
         if not reaches_foot or stop <= abs(foot - u):
             return u + side * stop
+        # velocity at the foot, from the work up to there
         v = side * math.sqrt(max(v * v + 2.0 * pull * (foot - u), 0.0))
         u, level = foot, LEVEL - level
     return u
@@ -52,6 +55,7 @@ def _after_landing(u: float, v: float, gap: float, gap_speed: float, level: int,
     """Return slip, m, and speed, m/s, after a flight that ends in a plastic landing with a Coulomb impulse."""
     sine, cosine = (0.0, 1.0) if level else (p[SINE], p[COSINE])
     normal, downhill = p[GRAVITY] * cosine, p[GRAVITY] * sine
+    # fall of the gap in a constant field, from the energy
     impact = math.sqrt(gap_speed * gap_speed + 2.0 * normal * gap)
     t = (gap_speed + impact) / normal
     u, v = u + v * t + 0.5 * downhill * t * t, v + downhill * t

@@ -63,6 +63,7 @@ def _loads(level, f, p):
     """Return the driving acceleration g sin th - a and the normal force N per unit mass, each with its rate ([Fujino1978]_ eq. (5))."""
     weight, horizontal = p[GRAVITY] + f[UP, 0], f[ALONG, 0]
     if level:
+        # level ground: a = a_h and N = g + a_v, without the projections
         drive, drive_rate, normal, normal_rate = -horizontal, -f[ALONG, 1], weight, f[UP, 1]
     else:
         s, c = p[SINE], p[COSINE]
@@ -88,6 +89,7 @@ def series(mode, y, f, p, order, c, g):
     phase = mode % LEVEL
     if phase == STICK:
         mu = p[STATIC]
+        # reserves of static friction in both directions, linear in time
         g[LIMIT_FORWARD, 0], g[LIMIT_FORWARD, 1] = -_excess(drive, mu, normal), mu * normal_rate - drive_rate
         g[LIMIT_BACKWARD, 0], g[LIMIT_BACKWARD, 1] = _excess(drive, -mu, normal), mu * normal_rate + drive_rate
         if p[ONE_WAY] > 0.0:
@@ -100,6 +102,7 @@ def series(mode, y, f, p, order, c, g):
     friction = p[KINETIC]
     if phase == BACKWARD:
         friction = -friction
+    # in flight neither friction nor normal force acts, and the gap opens with -N
     elif phase == FLIGHT:
         friction = 0.0
         c[GAP, 1], c[GAP, 2], c[GAP, 3] = y[GAP_SPEED], -0.5 * normal, -SIXTH * normal_rate
@@ -113,11 +116,13 @@ def series(mode, y, f, p, order, c, g):
             g[LIMIT_FORWARD, k] = c[GAP, k]
         return 3
     side = 1.0 if phase == FORWARD else -1.0
+    # scratch of an earlier flight must not move the gap
     for k in range(1, 4):
         c[GAP, k] = c[GAP_SPEED, k] = 0.0
     for k in range(4):
         g[LIMIT_FORWARD, k] = side * c[SPEED, k]
     g[CONTACT, 0], g[CONTACT, 1], g[CONTACT, 2], g[CONTACT, 3] = normal, normal_rate, 0.0, 0.0
+    # only motion towards the foot can reach it: downhill on the slope, uphill on the level
     downhill = p[DOWNHILL] * side > 0.0
     if p[FOOT_POSITION] < OFF and downhill == (mode < LEVEL):
         direction = -p[DOWNHILL] if downhill else p[DOWNHILL]
@@ -130,6 +135,7 @@ def series(mode, y, f, p, order, c, g):
 @kernel(_t.boolean(_t.float64, _t.float64), inline=True)
 def _loses_contact(normal, normal_rate):
     """Return whether contact ends: normal force negative, or zero and decreasing."""
+    # a zero that is about to grow again is a graze: the body stays
     return normal < 0.0 or (normal == 0.0 and normal_rate < 0.0)
 
 
@@ -156,10 +162,12 @@ def _mode_at_zero_speed(level, y, f, p):
 @kernel(_t.int64(_t.int64, VECTOR, MATRIX, VECTOR), inline=True)
 def _landing_mode(level, y, f, p):
     """Return the mode after a plastic landing; the tangential impulse is at most mu_d times the normal impulse."""
+    # the flight may have passed the foot in either direction; exactly at the foot the present level stays
     if p[DOWNHILL] * y[SLIP] > p[FOOT_POSITION]:
         level = LEVEL
     elif p[DOWNHILL] * y[SLIP] < p[FOOT_POSITION]:
         level = 0
+    # Coulomb's law on impulses: mu_d times the normal impulse, which stops the fall
     impulse = p[KINETIC] * abs(y[GAP_SPEED])
     y[GAP] = y[GAP_SPEED] = 0.0
     if y[SPEED] > impulse:
@@ -184,6 +192,7 @@ def skip(mode, acceleration, gains, sample, p):
     while k < samples:
         a = gain_along * acceleration[ALONG, k]
         b = weight + (gain_up * acceleration[UP, k] if gain_up != 0.0 else 0.0)
+        # both conditions are linear in the input: holding at two samples, they hold between them
         drive, limit = b * s - a * c, mu * (b * c + a * s)
         if not (drive < limit and (one_way or -drive < limit) and limit > 0.0):
             break
@@ -199,8 +208,10 @@ def reset(mode, guard, y, f, p):
     if guard == CONTACT:
         return _lift_off_mode(level, p)
     if guard == FOOT:
+        # the exact position of the foot, not that of the root found
         y[SLIP] = p[DOWNHILL] * p[FOOT_POSITION]
         return LEVEL - level + phase
+    # the normal force may vanish at the instant at which friction is exceeded
     if phase == STICK:
         _, _, normal, normal_rate = _loads(level > 0, f, p)
         if _loses_contact(normal, normal_rate):

@@ -31,6 +31,7 @@ def path_length(trajectory: Trajectory) -> float:
 
     Without flight the slip reverses at events only, so that its values there suffice; with flight all samples are used.
     """
+    # in flight the velocity along the base may change its sign without an event
     changes = trajectory.events
     if (changes.target % LEVEL == FLIGHT).any():
         return _length_between_samples(trajectory)
@@ -189,12 +190,14 @@ def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> Sl
     """Return the outcome of a trajectory."""
     changes = trajectory.events
     highest, highest_time, lowest, lowest_time = (float(value) for value in trajectory.extrema[0])
+    # the largest displacement of either sign
     slip, time = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
     # passing the foot continues a slip
     start_modes = changes.source[(changes.guard != FOOT) & _is_sliding(changes.target)]
     is_moving = trajectory.final_mode % LEVEL != STICK
     rest_slip = slip_at_rest(trajectory.final.tolist(), trajectory.final_mode, p)
     return SlideOutcome(
+        # any event begins with the end of stick
         slips=bool(changes),
         slip_start_s=motion.start_s + changes[0].time if changes else None,
         slip_end_s=motion.start_s + changes[-1].time if changes and not is_moving else None,
@@ -276,12 +279,14 @@ def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, traj
     if modes.max() >= LEVEL:
         level = modes >= LEVEL
         sine, cosine, phase = np.where(level, 0.0, sine), np.where(level, 1.0, cosine), modes % LEVEL
+    # resolved along the base: a_h cos th - a_v sin th ([Fujino1978]_ eq. (5))
     base_acceleration = horizontal * cosine - vertical * sine if base.slope_deg or gain else horizontal
     normal = (gravity + vertical) * cosine + (horizontal * sine if base.slope_deg else 0.0)
     pull = gravity * sine
     friction_sign = _FRICTION_SIGN[phase]
     acceleration = np.where(phase == STICK, 0.0, (pull - base_acceleration) + friction_sign * (base.kinetic * normal))
     velocity = np.zeros_like(time)
+    # trapezoidal rule: exact for acceleration that is linear between samples
     np.cumsum(0.5 * np.diff(time) * (base_acceleration[1:] + base_acceleration[:-1]), out=velocity[1:])
     unit, speed = "m/s^2", "m/s"
     channels = (

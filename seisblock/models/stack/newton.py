@@ -66,6 +66,7 @@ first body of its row in the factor."""
 def _penalty_impulse(row, u0, u1, u2, is_limit_held):
     """Return the impulse of a contact at a relative velocity, its normal part, and the ratio of friction to its trial value (1: sticks)."""
     n0, n1, n2, k, bound = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], row[PENALTY], row[MIN_NORMAL_VELOCITY]
+    # a contact without a bound does not act in this step
     if bound == -math.inf:
         return 0.0, 0.0, 0.0, 0.0, 0.0
     y0, y1, y2 = (
@@ -74,14 +75,18 @@ def _penalty_impulse(row, u0, u1, u2, is_limit_held):
         row[PENALTY_CENTRE + 2] - k * (u2 - bound * n2),
     )
     normal = y0 * n0 + y1 * n1 + y2 * n2
+    # a bilateral row may pull, and has no friction
     if row[BILATERAL] > 0.0:
         return normal * n0, normal * n1, normal * n2, normal, 0.0
     y0, y1, y2 = y0 - normal * n0, y1 - normal * n1, y2 - normal * n2
     normal = max(normal, 0.0)
+    # with held limits the impulses have a potential; friction that follows the normal impulse has none, and no line
+    # search would apply
     pressure = row[PRESSURE] if is_limit_held else normal
     s0, s1, s2 = pressure * row[CONE_CENTRE], pressure * row[CONE_CENTRE + 1], pressure * row[CONE_CENTRE + 2]
     y0, y1, y2 = y0 - s0, y1 - s1, y2 - s2
     size, limit = math.sqrt(y0 * y0 + y1 * y1 + y2 * y2), row[MU] * pressure
+    # projection onto the disc of friction: the trial impulse is kept inside, and shortened outside
     ratio = limit / size if size > limit else 1.0 if pressure > 0.0 else 0.0
     return normal * n0 + s0 + ratio * y0, normal * n1 + s1 + ratio * y1, normal * n2 + s2 + ratio * y2, normal, ratio
 
@@ -122,6 +127,7 @@ def _momentum_gradient(bodies, inertias, velocities, work):
 @kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, MATRIX, MATRIX), inline=True)
 def _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work):
     """Write free velocities, inertias and the envelope of the factor; the centres of the penalties are the impulses of the warm start."""
+    # velocities without the impulses of the warm start
     apply_impulses(n, contact_ids, rows, ground, inertias, -1.0, velocities)
     for i in range(ground):
         g, j = work[i], inverses[i]
@@ -145,7 +151,10 @@ def _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work):
         row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
         for k in range(3):
             row[PENALTY_CENTRE + k] = row[IMPULSE + k]
+        # the trace over 3 is the mean response of the contact to an impulse: the compliance is relative to it
         row[PENALTY] = 3.0 / (FIRST_COMPLIANCE * (row[W] + row[W + 4] + row[W + 8]))
+        # a contact between two stones couples their rows; the factor fills the envelope from the first of these
+        # columns on
         if a != ground and b != ground:
             last = max(a, b)
             work[last, FIRST_NEIGHBOUR] = min(work[last, FIRST_NEIGHBOUR], min(a, b))
@@ -164,6 +173,7 @@ def _errors(n, contact_ids, rows, ground, inertias, inverses, velocities, work):
         row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
         u0, u1, u2 = relative_velocity(a, b, row, velocities)
         u0, u1, u2 = u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2]
+        # here the limits follow the normal impulses: these are the laws that the solution must obey
         p0, p1, p2, normal, ratio = _penalty_impulse(row, u0, u1, u2, False)
         row[TRIAL_SLIP] = u0
         row[TRIAL_SLIP + 1] = u1
@@ -177,12 +187,14 @@ def _errors(n, contact_ids, rows, ground, inertias, inverses, velocities, work):
         if bound == -math.inf:
             continue
         normal_speed = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
+        # where a contact presses, the penalty leaves a velocity against the law; where it sticks, a slip
         if normal != 0.0:
             penalty_error = max(penalty_error, abs(normal_speed - bound))
             if ratio == 1.0:
                 penalty_error = max(penalty_error, math.sqrt(max(u0 * u0 + u1 * u1 + u2 * u2 - normal_speed * normal_speed, 0.0)))
         else:
             penalty_error = max(penalty_error, bound - normal_speed)
+    # the change of the velocities by the impulses, less what they have changed already: zero in the solution
     for i in range(ground):
         g, j = work[i], inverses[i]
         for k in range(3):
@@ -235,18 +247,21 @@ def _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work):
             blocks[i, i, 7 * k] = inertias[i, 0]
             for m in range(3):
                 blocks[i, i, 6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
+    # the block of the ground is not needed: it serves as scratch
     stiffness = blocks[ground, ground]
     for i in range(n):
         row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
         u0, u1, u2 = row[TRIAL_SLIP], row[TRIAL_SLIP + 1], row[TRIAL_SLIP + 2]
         p0, p1, p2, normal, ratio = _penalty_impulse(row, u0, u1, u2, True)
         _subtract_impulse(a, b, ground, row, p0, p1, p2, work)
+        # an open contact without friction adds no stiffness
         if normal == 0.0 and ratio == 0.0:
             continue
         k = row[PENALTY]
         # A = along (n n) + across (1 - n n - d d), d: direction of the slip
         along, across = (k if normal != 0.0 else 0.0), ratio * k
         n0, n1, n2, d0, d1, d2 = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], 0.0, 0.0, 0.0
+        # across the slip, friction turns with it; along it, the impulse is at its limit and does not change
         if 0.0 < ratio < 1.0:
             pressure = row[PRESSURE]
             d0, d1, d2 = (
@@ -256,6 +271,7 @@ def _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work):
             )
             size = math.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
             d0, d1, d2 = d0 / size, d1 / size, d2 / size
+        # written as across (1 - d d) + (along - across) n n
         along -= across
         stiffness[0] = across + along * n0 * n0 - across * d0 * d0
         stiffness[1] = along * n0 * n1 - across * d0 * d1
@@ -294,6 +310,7 @@ def _factorise(bodies, blocks, work):
         first = int(work[i, FIRST_NEIGHBOUR])
         for k in range(first, i):
             column, diagonal = blocks[k, i], blocks[k, k]
+            # blocks before either envelope are zero
             for m in range(max(first, int(work[k, FIRST_NEIGHBOUR])), k):
                 _subtract_product(blocks[m, k], blocks[m, i], column)
             for r in range(6):
@@ -306,9 +323,11 @@ def _factorise(bodies, blocks, work):
             _subtract_product(column, column, blocks[i, i])
         block = blocks[i, i]
         for r in range(6):
+            # not positive, or NaN after an overflow: the sweeps take over
             if not block[7 * r] > 0.0:
                 return False
             x = 1.0 / math.sqrt(block[7 * r])
+            # the inverse of the diagonal is stored, so that substitutions need no division
             block[7 * r] = x
             for j in range(r + 1, 6):
                 block[6 * r + j] *= x
@@ -367,6 +386,7 @@ def _contact_slope(length, n, rows):
 def _step_length(n, contact_ids, rows, ground, inertias, velocities, work):
     """Return the length of the step at which the convex function has nearly stopped to fall."""
     constant, linear, first_slope = 0.0, 0.0, 0.0
+    # the part of the inertia is linear in the length of the step; only that of the contacts bends
     for i in range(ground):
         g, v = work[i], velocities[i]
         for k in range(3):
@@ -382,6 +402,7 @@ def _step_length(n, contact_ids, rows, ground, inertias, velocities, work):
         row[SLIP_CHANGE], row[SLIP_CHANGE + 1], row[SLIP_CHANGE + 2] = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], row, work)
     low, high, low_slope = 0.0, 1.0, first_slope
     high_slope = constant + linear + _contact_slope(1.0, n, rows)
+    # usually the active contacts have settled, and the full step is exact
     if abs(high_slope) <= SLOPE_RATIO * abs(first_slope):
         return 1.0
     # the slope rises along the step, as the function is convex: extend until it is positive, then bisect by false position
@@ -393,6 +414,7 @@ def _step_length(n, contact_ids, rows, ground, inertias, velocities, work):
     length = high
     for _ in range(MAX_TRIALS):
         length = low + (high - low) * low_slope / (low_slope - high_slope)
+        # kept off both ends: false position alone may stall at one of them
         length = min(max(length, low + 0.1 * (high - low)), high - 0.1 * (high - low))
         slope = constant + length * linear + _contact_slope(length, n, rows)
         if abs(slope) <= SLOPE_RATIO * abs(first_slope):
@@ -421,14 +443,17 @@ def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, ve
     for iteration in range(MAX_ITERATIONS):
         change, penalty_error = _errors(n, contact_ids, rows, ground, inertias, inverses, velocities, work)
         if max(change, penalty_error) < ACCURACY * tolerance:
+            # velocities that belong to the impulses exactly: momentum holds whatever is left of the error
             for i in range(ground):
                 for k in range(6):
                     velocities[i, k] += work[i, STEP + k]
             return iteration + 1
         if iteration == 0:
             max_change = MAX_GROWTH * max(change, tolerance)
+        # growing errors, or NaN
         if not change < max_change:
             return 0
+        # the penalty is what is left: only a move of the centres reduces it
         factor, moves = 1.0, change < max(ACCURACY * tolerance, MOVE_RATIO * penalty_error)
         if has_stalled and penalty_error < ACCURACY * tolerance:
             moves = False
@@ -445,6 +470,7 @@ def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, ve
                     for k in range(3):
                         row[PENALTY_CENTRE + k] = row[IMPULSE + k]
                 row[PENALTY] /= factor
+                # the centres have moved: the limits of the next iteration follow from them
                 _, _, _, normal, _ = _penalty_impulse(row, row[TRIAL_SLIP], row[TRIAL_SLIP + 1], row[TRIAL_SLIP + 2], False)
                 row[PRESSURE] = max(normal, 0.0)
         since_move += 1
@@ -453,6 +479,7 @@ def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, ve
             return 0
         _newton_step(ground, blocks, work)
         length = _step_length(n, contact_ids, rows, ground, inertias, velocities, work)
+        # the step ends where the convex function has nearly its minimum, which excludes a cycle of active sets
         for i in range(ground):
             for k in range(6):
                 velocities[i, k] += length * work[i, STEP + k]

@@ -45,6 +45,7 @@ def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, stat
     full_step = settings.dt / settings.steps
     time_left = full_step
     while time_left > 0.0:
+        # a sub-step takes the ground acceleration at its own start, as the leapfrog of full steps does
         fraction = (k + (full_step - time_left) / full_step) / settings.steps
         a0, a1, a2 = interpolate_ground(motion, s - counters[FIRST_SAMPLE], fraction)
         step = step_contacts(bodies, a0, a1, a2 + g, full_step, time_left, refresh_bounds and time_left == full_step, pile, memory)
@@ -54,6 +55,7 @@ def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, stat
         # leapfrog: velocities go from the middle of the last step to the middle of this one
         kick_time = 0.5 * (memory.step_info[LAST_STEP] + step)
         memory.step_info[LAST_STEP] = step
+        # balance of momentum with the ground's reaction: what is left over is an error of the contacts
         ledger[IMPULSE] -= kick_time * (bodies[n, F] + total_mass * a0)
         ledger[IMPULSE + 1] -= kick_time * (bodies[n, F + 1] + total_mass * a1)
         ledger[IMPULSE + 2] -= kick_time * (bodies[n, F + 2] + total_mass * (a2 + g))
@@ -61,6 +63,7 @@ def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, stat
         ledger[WORK] -= inertial_work(n, bodies, inertias, a0, a1, a2, 0.5 * kick_time)
         kick(n, bodies, inertias, a0, a1, a2 + g, kick_time)
         ledger[WORK] -= inertial_work(n, bodies, inertias, a0, a1, a2, 0.5 * kick_time)
+        # energies are compared once per sample: velocities and positions must belong to one instant
         if k == 0 and time_left == full_step:
             energy = mechanical_energy(n, bodies, inertias, g) + potential_energy_change(n, bodies, inertias, g, 0.5 * step)
             if s == 0:

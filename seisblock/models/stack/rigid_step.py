@@ -79,6 +79,7 @@ def _update_inertia(n, bodies, inertias, memory):
 @kernel(_t.void(MEMORY))
 def _store_forces(memory):
     """Store contact forces and slip states in the slots for the warm start of the next step."""
+    # the threshold grows with the step, like the velocities that a step leaves undecided
     press_time, threshold = memory.step_info[PRESS_TIME], SLIP_THRESHOLD * memory.step_info[FREE_FALL_SPEED]
     for i in range(int(memory.step_info[CONTACT_COUNT])):
         ids, row = memory.contact_ids[i], memory.constraint_rows[i]
@@ -91,12 +92,14 @@ def _store_forces(memory):
                 row[IMPULSE + k], press_time, 0.0 if memory.step_info[HAD_IMPACT] > 0.0 else slot[CACHED_FORCE + k], memory
             )
         slot[CACHED_SLIDING] = 0.0
+        # an open contact without an impulse neither slides nor touches
         if row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0 and row[GAP] > 0.0:
             continue
         u0, u1, u2 = sliding_velocity(ids[0], ids[1], row, memory)
         slot[CACHED_SLIDING] = 1.0 if u0 * u0 + u1 * u1 + u2 * u2 > threshold**2 else 0.0
         if row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0:
             continue
+        # marked for the time of the last contact of each pair, from which the outcome tells what a stone fell onto
         memory.contact_matrix[a, b] = 1.0
         memory.contact_matrix[b, a] = 1.0
 
@@ -156,6 +159,7 @@ def _solve_impacts(count, n, time_before, pile, memory):
             break
         rows = add_restitution_rows(count, n, pile, memory)
         solve_contacts(rows, n, tolerance, pile, memory)
+        # plastic impulses cannot create energy: only the rows added for a restitution are tested
         if (
             rows > count
             and impulse_work(
@@ -168,6 +172,7 @@ def _solve_impacts(count, n, time_before, pile, memory):
         else:
             distribute_joint_impulse(count, rows, memory)
         store_impact(count, rows, memory)
+    # the impact has changed the slip of every closed contact
     record_slip(count, True, memory)
     for i in range(count):
         for k in range(3):
@@ -184,6 +189,7 @@ def _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
     _update_inertia(n, bodies, pile.inertias, memory)
     count = find_contacts(bodies, time_left, refresh_bounds, pile, memory)
     record_slip(count, False, memory)
+    # contact conditions belong to the middle of the coming step
     # the velocities are half a step behind: advance them to the step, with the extrapolated forces
     _advance_velocities(count, n, half_last_step, a0, a1, a2, pile, memory)
     has_impact = detect_impacts(count, memory)
@@ -239,6 +245,7 @@ def step_contacts(bodies, a0, a1, a2, full_step, time_left, refresh_bounds, pile
         else 0.0
     )
     # solve with the sleeping bodies as ground; if a support cannot carry its load, wake all and solve again
+    # a stone asleep carries what lies on it without being solved; only this test shows whether it can
     while True:
         step = _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
         if can_support(n, bodies, a0, a1, a2, pile, memory):

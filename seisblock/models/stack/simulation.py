@@ -113,9 +113,11 @@ class Simulation:
         """
         pile, settings = self.pile, self.settings
         if rows is None:
+            # time histories of long motions are computed again on access, which costs time instead of memory
             rows = END_ROWS if self.motion.is_long else settings.last + 1
         memory = pile.memory()
         state = PileState(np.zeros(N_COUNTERS, dtype=np.int64), pile.bodies.copy())
+        # springs must carry the weight at the start; otherwise the release would shake the pile
         if not self.rigid:
             settle_on_springs(pile, self.gravity, state.bodies, memory.stretches)
         output = PileOutput(
@@ -149,6 +151,7 @@ class Simulation:
         """Yield chunks of the motion with the index of their first sample; the ground is at rest after the last sample."""
         zero_motion = np.zeros((3, self.settings.last + 1 - self.motion.samples))
         for chunk in self.motion.segments((True, *(factor != 0.0 for factor in self.factors))):
+            # the ground at rest after the record belongs to the last chunk
             shaking = np.array(chunk.acceleration) if chunk.samples_after else np.concatenate([chunk.acceleration, zero_motion], axis=1)
             shaking[[ACROSS, UP]] *= np.array(self.factors)[:, None]
             shaking.flags.writeable = False
@@ -170,6 +173,7 @@ class Simulation:
         for first, shaking in self._motion_chunks():
             state.counters[FIRST_SAMPLE] = first
             last = first + shaking.shape[1] - 1
+            # the last chunk has no end of its own: the run stops when every stone is still
             while status == Status.PAUSED and (state.counters[SAMPLE] < last or last == settings.last):
                 check_cancelled()
                 state.counters[STEPS_REMAINING] = steps_per_slice
@@ -188,6 +192,7 @@ def _initial_fall_states(pile: PileArrays, bodies: FloatArray) -> FloatArray:
     fall_states[:, FALL_TIME] = -1.0
     for b, group in enumerate(pile.members):
         boxes = pile.boxes[list(group), :3]
+        # height of the centre of gravity above its own base, and half the smaller side of that base
         foot, rise = boxes[0, :2].max(), bodies[b, X + 2] - (pile.boxes[group[0], 5] + bodies[b, X + 2] - boxes[0, 2])
         # slender bodies overturn below FALL_TILT, squat ones above: 0.1 rad beyond the overturning angle is past recovery
         fall_states[b, TILT_LIMIT] = math.cos(max(FALL_TILT, math.atan2(foot, rise) + 0.1))

@@ -85,6 +85,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
     d0, d1, d2 = rel[9], rel[10], rel[11]
     v0, v1, v2 = rel[12], rel[13], rel[14]
     w0, w1, w2 = rel[15], rel[16], rel[17]
+    # a joint whose faces no longer overlap has no border to hold the points
     clamp = k[CLAMP_TO_EDGE] > 0.0 and joint_faces_overlap(rel, carrier_half, partner_half)
     for o in range(n_orbits):
         for q in range(4):
@@ -180,8 +181,10 @@ def add_point_force(rel, y, depth, normal, k, dt, slot, total):
     The point is at `y` in the partner's axes, `depth` inside along `normal`, which points out of the partner.
     """
     if depth <= 0.0:
+        # separation ends the contact, and with it the stretch of its springs
         slot[ALIVE] = 0.0
         return 0.0
+    # the force starts from zero, wherever the step finds the point: a depth given at once would create energy
     if slot[ALIVE] == 0.0:
         slot[ALIVE] = 1.0
         slot[INITIAL_DEPTH] = depth
@@ -205,6 +208,7 @@ def add_point_force(rel, y, depth, normal, k, dt, slot, total):
     slot[INITIAL_DEPTH] = min(slot[INITIAL_DEPTH], depth)
     compression = depth - slot[INITIAL_DEPTH]
     normal_force = kn * compression - cn * separation_speed
+    # no tension, although dashpot and spring together would pull
     if normal_force <= 0.0:
         slot[0] = 0.0
         slot[1] = 0.0

@@ -56,6 +56,8 @@ SLOW_SPIN = 1e-6
 def is_joint_engaged(sigma, rel, carrier, partner):
     """Return 1 if the faces of a joint still face each other, else 0."""
     height = -sigma * rel[11]
+    # corners and edges take over where the faces no longer face each other, without a gap between the two
+    # descriptions
     return 1 if rel[8] > MIN_FACING_COSINE and height > partner[2] + MIN_JOINT_HEIGHT_RATIO * carrier[2] else 0
 
 
@@ -87,6 +89,7 @@ def _add_pair_forces(pair, role, n_corners, first_edge, n_edges, check, bodies, 
     k = pile.pair_constants[pair]
     rel, total, arms, scratch = work[0], work[1], work[2:4], work[8:13]
     relative_state(c, p, bodies, boxes, owner, arms, rel)
+    # separating-axis test, before any force is computed
     if check == 1 and not boxes_overlap(rel, boxes[c], boxes[p]):
         return -1.0
     for i in range(SUM):
@@ -128,6 +131,7 @@ def _add_joint_and_overhang(j, bodies, dt, pile, memory):
     apply_contact_force(bodies[owner[c]], bodies[owner[p]], arms, total)
     energy = total[ENERGY]
     role = 0 if pile.pairs[pair, 0] == c else 1
+    # the part of the carrier outside the partner's face touches it with edges and corners only
     if is_engaged == 1 and total[OUTSIDE] > 0.0:
         energy += _add_pair_forces(pair, role, 0, FACE_EDGES if k[SIGMA] > 0.0 else 0, FACE_EDGES, 0, bodies, dt, pile, memory)
         energy += _add_pair_forces(pair, 1 - role, pile.counts[p], 0, 0, 0, bodies, dt, pile, memory)
@@ -163,6 +167,7 @@ def add_all_forces(bodies, dt, refresh_bounds, pile, memory):
         if stored >= 0.0:
             energy += stored + _add_pair_forces(pair, 1, counts[j], 0, 0, 0, bodies, dt, pile, memory)
             pair_states[pair] = -1
+        # the boxes have separated since the last step: a later contact starts without a stretch
         elif pair_states[pair] == -1:
             pair_states[pair] = 0
             clear_pair(pair, memory)

@@ -61,8 +61,11 @@ class _Amplitudes:
     def slopes(self, omega: FloatArray) -> FloatArray:
         """Return a quantity with the sign of the derivative of the corner amplitudes, (4, n) (derived here)."""
         t = transfer(self.modes, self.damping, omega)
+        # derivative of the transfer function of each mode with respect to the frequency, up to a factor that all
+        # modes share
         rate = t * t * (2.0 * omega - 2j * self.damping * self.modes.omega[:, None])
         v = self.parts @ t
+        # division by |v|^2 leaves the sign and avoids an overflow next to a resonance
         slopes: FloatArray = np.real(np.conj(v) * (self.parts @ rate)) / np.maximum(np.abs(v) ** 2, 1e-300)
         return slopes
 
@@ -150,6 +153,7 @@ def lowest_uplift_threshold(
     Parameters are those of :func:`uplift_minima`.
     """
     amplitudes, low, high = _amplitudes_in_range(body, phi_deg, rho_deg, corner, frequency_range)
+    # an end of the range may lie lower than any local minimum
     selection = slice(None) if corner is None else slice(corner - 1, corner)
     ends = np.array([low, high])
     at_ends = amplitudes.thresholds(ends)[selection].min(axis=0)
@@ -184,8 +188,10 @@ def _candidates(amplitudes: _Amplitudes, low: float, high: float, corner: int | 
     peaks: list[float] = []
     for i in range(4) if corner is None else (corner - 1,):
         single_corner = _Amplitudes(amplitudes.modes, amplitudes.damping, amplitudes.parts[i : i + 1])
+        # a maximum of the amplitude is a change of the slope from rising to falling
         for k in np.flatnonzero((slopes[i, :-1] > 0.0) & (slopes[i, 1:] <= 0.0)):
             root = _root(single_corner.slope_at, float(grid[k]), float(grid[k + 1]))
+            # without damping the amplitude has poles instead of maxima: they are added below, from the modes
             if not (undamped and np.abs(root / omega - 1.0).min() < RESONANCE_TOLERANCE):
                 peaks.append(root)
         if undamped:
@@ -206,6 +212,7 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
 def _search_grid(amplitudes: _Amplitudes, low: float, high: float) -> FloatArray:
     """Return a grid of frequencies, refined around each natural frequency to separate all maxima."""
     omega = amplitudes.modes.omega
+    # the width of a resonance is its damping ratio; undamped ones need any small width
     width = amplitudes.damping or 0.01
     offsets = np.concatenate([-np.geomspace(20.0, 0.01, 40), np.geomspace(0.01, 20.0, 40)]) * width
     clustered = (omega[:, None] * (1.0 + offsets)).ravel()
@@ -217,6 +224,8 @@ def _search_grid(amplitudes: _Amplitudes, low: float, high: float) -> FloatArray
 def _minimum_at(amplitudes: _Amplitudes, omega: float, corner: int | None) -> UpliftMinimum | None:
     """Return the minimum at a frequency if it belongs to the governing corner there, else None."""
     if corner is None:
+        # the corner with the maximum may not govern there: the threshold of all corners must have its minimum at the
+        # same frequency
         neighbours = omega * (1.0 + 1e-6 * np.array([-1.0, 0.0, 1.0]))
         left_value, value, right_value = amplitudes.thresholds(neighbours).min(axis=0)
         if value > min(left_value, right_value) * (1.0 + 1e-10):

@@ -61,6 +61,7 @@ def _series(mode, y, f, p, order, c, g):
     c[CHANGES, 1] = c[FIRST, 1] = OFF
     for k in range(order + 1):
         for i in range(4):
+            # unilateral in the vertical direction only: an open corner keeps its horizontal spring
             c[F + i, k] = -(p[KZ] * c[U + i, k] + p[CZ] * c[W + i, k]) if (mode >> i) & 1 else 0.0
         # b theta_x, b theta_y and their rates from the corners (+,+), (+,-), (-,+), (-,-), as sums of differences, which are
         # exactly zero for equal corner motions
@@ -72,11 +73,14 @@ def _series(mode, y, f, p, order, c, g):
             break
         rate_x = 0.5 * ((c[W, k] - c[W + 1, k]) + (c[W + 2, k] - c[W + 3, k]))
         rate_y = -0.5 * ((c[W, k] - c[W + 2, k]) + (c[W + 1, k] - c[W + 3, k])) / gamma
+        # the springs attach at the base, half a height below the centre of gravity: [Okumura1987]_ eq. (1), its
+        # second line corrected to y + (H/2) theta_x
         push_x = -p[KX] * (c[X, k] - 0.5 * alpha * turn_y) - p[CX] * (c[VX, k] - 0.5 * alpha * rate_y)
         push_y = -p[KY] * (c[Y, k] + 0.5 * alpha * turn_x) - p[CY] * (c[VY, k] + 0.5 * alpha * rate_x)
         lift = c[F, k] + c[F + 1, k] + c[F + 2, k] + c[F + 3, k]
         moment_x = 0.5 * ((c[F, k] - c[F + 1, k]) + (c[F + 2, k] - c[F + 3, k])) + 0.5 * alpha * push_y
         moment_y = -0.5 * gamma * ((c[F, k] - c[F + 2, k]) + (c[F + 1, k] - c[F + 3, k])) - 0.5 * alpha * push_x
+        # constants enter the series at order 0, the linear ground motion at orders 0 and 1
         if k == 0:
             lift -= p[GRAVITY]
         step = 1.0 / (k + 1)
@@ -90,15 +94,18 @@ def _series(mode, y, f, p, order, c, g):
         lean_y = 0.5 * gamma * moment_y / p[JY]
         for i in range(4):
             c[U + i, k + 1] = c[W + i, k] * step
+        # each corner follows from the rigid motion of the base; the four stay compatible at every order
         c[W, k + 1] = (lift + lean_x - lean_y) * step
         c[W + 1, k + 1] = (lift - lean_x - lean_y) * step
         c[W + 2, k + 1] = (lift + lean_x + lean_y) * step
         c[W + 3, k + 1] = (lift - lean_x + lean_y) * step
+    # bonded base: the linear run has no event, and its extrema scale with the motion
     if mode == GLUED:
         for i in range(4):
             g[i, 0] = OFF
         return order
     for i in range(4):
+        # a closed corner fires as u rises above zero, an open one as it falls below
         sign = -1.0 if (mode >> i) & 1 else 1.0
         for k in range(order + 1):
             g[i, k] = sign * c[U + i, k]
@@ -118,6 +125,7 @@ def _reset(mode, guard, y, f, p):
                 target_mode ^= 1 << i
                 y[F + i] = 0.0 if in_contact else -p[CZ] * y[W + i]
                 y[CHANGES] += 1.0
+    # only the first event counts: later uplifts follow from a response that is no longer linear
     if y[FIRST] == 0.0:
         y[FIRST] = mode & ~target_mode
     return target_mode
@@ -165,6 +173,8 @@ def parameters(body: SpringBlock, gravity: float) -> FloatArray:
     """
     wx, wy, wz = body.omega
     two_zeta = 2.0 * body.damping
+    # vibrations decay to round-off beside the static settlement; without floors their series would demand ever
+    # smaller steps
     floors = np.full(N_STATES, body.static_settlement(gravity))
     floors[F : F + 4] = gravity / 4.0
     floors[W : VY + 1] *= wz

@@ -61,6 +61,7 @@ def solve_uplift(body: SpringBlock, motion: Motion, options: UpliftOptions) -> R
     p, start = parameters(body, gravity), static_state(body, gravity)
     trajectory = integrate(UPLIFT, motion, p, start, ALL_CORNERS, gains=gains)
     linear = repeat = trajectory
+    # the same run with another round-off shows whether round-off decides the result
     if trajectory.final[FIRST] > 0.0:
         # without uplift the run is the linear one, in which round-off does not grow
         linear = integrate(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)

@@ -95,6 +95,7 @@ def predict_held_out(experiment: Experiment, sample: ImportanceSample, lapse: La
         Fold of each record.
     """
     probability, min_effective = np.empty(len(experiment.outcomes)), np.inf
+    # the outcomes of one record are not independent: whole records are held out
     for rows, logs in log_likelihoods_held_out(sample.shares, experiment, folds[experiment.record], lapse):
         weights = sample.log_weights(logs)
         min_effective = min(min_effective, effective_sample_size(np.exp(weights).sum(axis=0)))
@@ -137,6 +138,7 @@ def score_predictions(
         test, train = parts == part, parts != part
         train_weight = weights[train].sum()
         # baselines: constant rate and best velocity threshold of the training folds
+        # without outcomes in the other folds nothing is known: one half
         rate[test] = weights[train] @ outcomes[train] / train_weight if train_weight else 0.5
         above_threshold[test] = velocities[test] >= _threshold(velocities[train], outcomes[train], weights[train])
     correct = (probability > 0.5) == (outcomes > 0.5)

@@ -126,6 +126,7 @@ def make_experiment(outcomes: Iterable[Observation], kind: str = FELL) -> Experi
 
 def trim_zeros(motion: Motion) -> Motion:
     """Return a motion without leading and trailing zeros: the block rests before, and free rocking after it is known."""
+    # one zero on either side is kept, so that the linear interpolation to the first sample stays
     nonzero = np.flatnonzero(motion.acceleration.any(axis=0))
     first, last = (max(int(nonzero[0]) - 1, 0), int(nonzero[-1]) + 2) if nonzero.size else (0, 2)
     if first == 0 and last >= motion.samples:

@@ -58,6 +58,7 @@ class Proposal:
         from scipy.special import gammaln, logsumexp
 
         d = unit_points.shape[1]
+        # Mahalanobis distance by a triangular solve: no inverse of the shape matrix is formed
         standardized = solve_triangular(self.root, (unit_points[:, None, :] - self.centres[None, :, :]).reshape(-1, d).T, lower=True)
         distance = (standardized**2).sum(axis=0).reshape(len(unit_points), -1)
         constant = (
@@ -75,6 +76,7 @@ def make_proposal(unit_points: FloatArray, weights: FloatArray, count: int, rng:
     """
     d = unit_points.shape[1]
     share = weights / weights.sum()
+    # weights that concentrate on few points know as little as that many equal ones
     effective_size = 1.0 / float((share**2).sum())
     middle = share @ unit_points
     spread = (unit_points - middle).T @ (share[:, None] * (unit_points - middle)) * (effective_size / max(effective_size - 1.0, 1.0))
@@ -89,6 +91,7 @@ def make_proposal(unit_points: FloatArray, weights: FloatArray, count: int, rng:
     batches: list[FloatArray] = []
     trial_count = hits = 0
     # rejection outside the cube; the accepted share normalises the truncated density
+    # at least one batch, so that the accepted share has a small error even for few points
     while hits < count or trial_count < TRIAL_SIZE:
         base_points = centres[rng.integers(CENTRE_COUNT, size=TRIAL_SIZE)]
         radial_scale = np.sqrt(DEGREES_OF_FREEDOM / rng.chisquare(DEGREES_OF_FREEDOM, size=TRIAL_SIZE))
@@ -139,6 +142,7 @@ class ImportanceSample:
     def log_weights(self, log_likelihoods: FloatArray) -> FloatArray:
         """Return the log weights of each lapse rate and each block, (l, n), with a maximum of zero."""
         logs = log_likelihoods - self.log_density
+        # a common shift cancels in normalised weights and prevents an underflow
         shifted: FloatArray = logs - logs.max()
         return shifted
 
@@ -192,6 +196,7 @@ def sample_posterior(
     posterior, proposals = None, []
     for iteration in range(MAX_PROPOSALS):
         proposals.append(proposal)
+        # runs are spent where likely blocks disagree: elsewhere more of them would change nothing
         run_counts = search.runs_per_shaking(sample if posterior is None else posterior, runs)
         posterior = search.extend_sample(posterior, proposals, run_counts)
         weights = np.exp(posterior.log_weights(search.log_likelihoods(posterior))).sum(axis=0)
@@ -256,6 +261,7 @@ class _Sampler:
             logs = ImportanceSample.log_weights(replace(sample), power * likelihoods)
             return np.exp(logs).sum(axis=0)
 
+        # with few effective points a proposal would collapse onto them
         if effective_sample_size(weights(max_power)) >= MIN_EFFECTIVE:
             return max_power, weights(max_power)
         # the effective sample size decreases with the power: bisection

@@ -54,6 +54,7 @@ def make_lapse_rate(fixed: float | None) -> LapseRate:
     """Return the values of lambda: midpoints of equally likely parts of its prior, or the fixed value."""
     if fixed is not None:
         return LapseRate(np.array([max(fixed, MIN_LAPSE_RATE)]))
+    # midpoints of equally likely parts: an average over them is one over the prior
     shares = (np.arange(LAPSE_STEPS) + 0.5) / LAPSE_STEPS
     return LapseRate(1.0 - (1.0 - shares) ** (1.0 / LAPSE_SHAPE))
 

@@ -168,20 +168,24 @@ def infer_twist(
         outcomes = rigid3d_outcomes(body, motion, options, draws, variation, scales=scales, progress=advance)
         return [(scale, outcome) for scale, outcome in zip(scales.tolist(), outcomes, strict=True) if outcome is not None]
 
+    # most factors are either too small to move the object or overturn it; the pilot finds the range between
     pilot = run(LEAST_FACTOR, limit, max(runs // PILOT_SHARE, 10), seed + 1, None)
     low, high = _range(pilot, limit)
     results = run(low, high, runs, seed, progress)
     sample = []
     for scale, outcome in results:
         distance = math.hypot(*outcome.final_displacement_m)
+        # the error of a reading grows with the twist, but has a smallest value
         misfit = (abs(outcome.twist_deg) - observed) / max(TWIST_ERROR * observed, MIN_TWIST_ERROR_DEG)
         squared = misfit * misfit
         if displacement_m is not None:
             squared += ((distance - displacement_m) / max(DISPLACEMENT_ERROR * displacement_m, MIN_DISPLACEMENT_ERROR_M)) ** 2
+        # the object still stands: runs that overturn it are excluded, however well they twist
         weight = 0.0 if outcome.overturned or not outcome.moved else math.exp(-0.5 * squared)
         sample.append(TwistRun(scale, outcome.twist_deg, distance, outcome.overturned, weight))
     weights = np.array([run.weight for run in sample])
     effective = float(weights.sum() ** 2 / max(float(np.square(weights).sum()), 1e-300))
+    # few effective runs, or none near the observed twist, give no interval
     enough = effective >= MIN_EFFECTIVE_RUNS and weights.max() > math.exp(-2.0)
     factors = np.array([run.scale for run in sample])
     interval = _interval(factors, weights, level) if enough else None
@@ -226,6 +230,7 @@ def pooled_pga(estimates: Sequence[TwistEstimate], level: float = 0.9) -> Factor
 def _interval(values: FloatArray, weights: FloatArray, level: float) -> FactorInterval:
     """Return weighted median and bounds of equal tails."""
     order = np.argsort(values)
+    # quantile positions at the middle of each weight, so that both tails are treated alike
     shares = np.cumsum(weights[order]) - 0.5 * weights[order]
     low, median, high = np.interp(np.array([0.5 - 0.5 * level, 0.5, 0.5 + 0.5 * level]) * weights.sum(), shares, values[order]).tolist()
     return FactorInterval(median, low, high)
