@@ -41,7 +41,7 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """Leave what is marked slow out of a run of the whole suite: ``-m slow`` runs it by itself, and a file that is named runs whole.
+    """Exclude tests marked slow from a run of the whole suite; ``-m slow`` and named files run them.
 
     How tests are shared out among workers is said where there are workers alone: benchmarks are not measured beside it.
     """

@@ -21,7 +21,7 @@ EGG = np.array([0.27, 0.22, 0.50])
 """Half axes, m."""
 
 CUT = 0.42
-"""How far below the middle the base lies, m."""
+"""Depth of the base below the middle, m."""
 
 
 def sphere(count: int) -> tuple[np.ndarray, np.ndarray]:

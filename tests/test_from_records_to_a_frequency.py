@@ -1,4 +1,4 @@
-"""Every line of docs/tutorials/from_records_to_a_frequency.md runs, one after the other, and its files lead where the page says."""
+"""Every line of docs/tutorials/from_records_to_a_frequency.md runs in order and gives the printed results."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""The page that compares the paper's jump with all motions together holds what the program computes, and says what follows from it."""
+"""The page that compares the jump of the paper with the full response holds computed values and their consequences."""
 
 import pytest
 

@@ -34,7 +34,7 @@ def test_page_output_equals_program(name, tmp_path, monkeypatch):
 
 
 def test_page_lines_are_all_recognised():
-    """Every kind of line is found somewhere, and only those that somebody looks at."""
+    """Every kind of line occurs, and only kinds that are checked."""
     kinds = {kind for page in PAGES.values() for kind, _ in FENCED.findall(page.read_text("utf-8"))}
     assert {"console", "python", "sh"} <= kinds <= LANGUAGES
     blocks = [block for page in PAGES.values() for kind, block in FENCED.findall(page.read_text("utf-8")) if kind == "python"]

@@ -44,7 +44,7 @@ def test_parse_length_rejects_invalid_units(text):
 
 @pytest.mark.parametrize("value", ["24", 24, 72.0, "-630"])
 def test_length_without_unit_above_20_m_is_rejected(value):
-    """More than 20 m without a unit is a unit forgotten: the message says how to write what was meant."""
+    """A length above 20 m without a unit is rejected with the probable notation."""
     with pytest.raises(UnitError, match=r"width -?\d+ has no unit and exceeds 20 m: write -?\d+cm,"):
         parse_length(value, quantity="width")
 

@@ -1,4 +1,4 @@
-"""Every public function refuses what is of another kind in one sentence of its own, never with an AttributeError from inside."""
+"""Public functions reject arguments of a wrong type in one sentence, never with an AttributeError from inside."""
 
 import pickle
 
@@ -74,7 +74,7 @@ OF_BODIES = {
 
 @pytest.mark.parametrize("name", OF_MOTIONS)
 def test_studies_require_a_motion(name):
-    """A record holds several components and an array no time step: each study says so as the solvers do."""
+    """A record has several components and an array no time step: studies reject both as the solvers do."""
     with pytest.raises(sb.errors.KindError, match=r"found a Record .*: select a component with motion_of\(record, 'NS'\)"):
         OF_MOTIONS[name](RECORD)
     for invalid in (np.zeros(100), "record.csv", None):
@@ -198,7 +198,7 @@ def test_vertical_has_same_meaning_everywhere(name):
 
 
 def outcome_text(answer):
-    """Return what an answer says, to the last digit."""
+    """Return the text of a result to the last digit."""
     return exact_repr(getattr(answer, "outcome", answer))
 
 

@@ -33,7 +33,7 @@ STRONG = sb.Record((sb.records.Component("NS", 400.0 * SINE), sb.records.Compone
     ],
 )
 def test_suspicious_unit_warns_at_callers_line(call, says):
-    """One warning of one sentence, at the caller's line; the answer is given, for a house may be meant."""
+    """One warning of one sentence at the line of the caller; the result is still returned."""
     with pytest.warns(UserWarning, match=says) as text:
         assert call() is not None
     assert [entry.filename for entry in text] == [__file__]
@@ -47,14 +47,14 @@ def call_without_warnings(call):
 
 
 def test_common_values_do_not_warn():
-    """Up to 20 m, 5 g and 0.1 s nothing is said."""
+    """Values up to 20 m, 5 g and 0.1 s give no warning."""
     call_without_warnings(lambda: sb.Block(MAX_UNITLESS_LENGTH, MAX_UNITLESS_LENGTH))
     call_without_warnings(lambda: sb.Motion.from_arrays(50.0 * SINE / SINE.max(), 0.1))
     call_without_warnings(lambda: sb.motion_of(sb.read("synthetic_jma.csv"), "EW"))
 
 
 def test_internal_calls_do_not_warn(tmp_path):
-    """Sizes that follow from others, versions, motions scaled within studies, and a record whose doubt says it already."""
+    """Derived sizes, samples, scaled motions and records with that flag give no warning."""
     house = call_without_warnings(lambda: sb.bodies.from_slenderness(0.3, 0.4))
     assert house.height > MAX_UNITLESS_LENGTH
     motion = call_without_warnings(lambda: sb.motion_of(sb.records.crop(sb.read("synthetic_jma.csv"), 24.0, 26.0), "EW"))
@@ -69,7 +69,7 @@ def test_internal_calls_do_not_warn(tmp_path):
 
 
 def test_command_line_warns_once(tmp_path):
-    """A record of 40 g is doubted in one line, and a house whose sizes have their units is no mistake."""
+    """A record of 40 g gives one warning; sizes with units give none."""
     path = tmp_path / "gal.csv"
     path.write_text("time,NS (m/s2)\n" + "".join(f"{0.01 * i:.2f},{400.0 * a:.6f}\n" for i, a in enumerate(SINE)))
     command = [sys.executable, "-m", "seisblock", "rock", str(path), "--width", "45m", "--height", "180m"]

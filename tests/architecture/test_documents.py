@@ -54,7 +54,7 @@ def test_source_archive_contains_all_top_level_files():
 
 
 def test_every_version_of_the_changelog_is_dated():
-    """Each heading has a date, or says that it is not released."""
+    """Each heading has a date, or is marked as unreleased."""
     headings = re.findall(r"^## (.+)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)
     assert headings
     assert [h for h in headings if not re.fullmatch(r"\d+\.\d+\.\d+ \((\d{4}-\d\d-\d\d|unreleased)\)", h)] == []
@@ -69,7 +69,7 @@ def test_layer_table_of_the_architecture_page_matches_the_import_contract():
 
 
 def test_benchmarks_can_be_measured_alone():
-    """As CONTRIBUTING says it, without workers: pytest-benchmark refuses where tests are shared out."""
+    """The command of CONTRIBUTING without workers, since pytest-benchmark rejects parallel runs."""
     words = re.search(r"python -m (pytest tests/benchmarks \S+)", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))[1].split()
     words[1] = "tests/benchmarks/test_animation_speed.py"
     env = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
@@ -85,7 +85,7 @@ def test_benchmarks_can_be_measured_alone():
 
 
 def test_ci_runs_suite_and_slow_tests():
-    """The one definition of green runs the suite as the README says, and what is marked slow after it."""
+    """The definition of green runs the suite as in the README, then the slow tests."""
     readme, definition = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", ".ci/run"))
     text = re.search(r"python -m (pytest .+)", readme)[1]
     run = re.findall(r"-m (pytest -n 2 --benchmark-disable.*?)(?: --durations.*)?$", definition, re.M)

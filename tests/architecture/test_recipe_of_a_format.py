@@ -48,7 +48,7 @@ def test_line_of_the_recipe_reads_the_sample(tree):
 
 
 def test_format_of_the_recipe_is_listed_and_found_in_archives(tree):
-    """Help, errors and archives know the format; a wrong count in the header is a quality flag; obspy has a plug-in."""
+    """Help, errors and archives know the format; a wrong count in the header is a quality flag; ObsPy has a plug-in."""
     ((name, text),) = SAMPLE_FILE.findall(RECIPE)
     measure = ("-m", "seisblock", "measure")
     assert "TABLE-LOG" in run(tree, *measure, "--help-all")[0]

@@ -1,4 +1,4 @@
-"""Units are said: in the help of every option, and of every number in the docstrings of the public API."""
+"""Units are stated in the help of every option and for every number in the docstrings of the public API."""
 
 import inspect
 import itertools
@@ -22,14 +22,14 @@ DIMENSION = re.compile(
     r"|\b[Ss]hares?\b|\b[Rr]atios?\b|\b[Ff]actors?\b|\b[Cc]oefficients?\b|\btimes\sslower\b|\bln\s(?:PGA|f)\b|[A-Za-z]/[A-Z]\b"
     r"|\bJMA\sintensity\b|\b[Dd]egrees\b|\b[Pp]er\scent\b|\blogarithm\b|\bpoints\b",
 )
-"""A unit where the house writes units, or the word for a number that has none."""
+"""A unit in the usual notation, or the word for a dimensionless number."""
 
 COUNTS = (click.IntRange, type(click.INT), Count)
-"""Options that count something: their type says so."""
+"""Types of options that are counts."""
 
 
 def dimension_of_help(text):
-    """Return whether the help of an option says what its numbers are in. What is taken when it is left out says nothing of it."""
+    """Return whether the help of an option, its default excluded, states the unit of its numbers."""
     return bool(DIMENSION.search(re.sub(r"\[default:[^]]*\]", "", text)))
 
 
@@ -62,7 +62,7 @@ def test_every_option_has_help():
     ],
 )
 def test_unit_rule_recognises_units(text, says):
-    """A unit after a comma or a word for a pure number says it; a default, a count of words or a lone figure does not."""
+    """A unit after a comma or a word for a pure number counts; a default, a count of words or a lone figure does not."""
     assert dimension_of_help(text) is says
 
 
@@ -78,12 +78,12 @@ def test_numeric_options_state_their_unit():
 
 
 def named_dimension(name):
-    """Return whether a name says what its number is in: `width_m`, `max_rotation_ratio`."""
+    """Return whether a name contains the unit: `width_m`, `max_rotation_ratio`."""
     return bool(split_unit(name)[1]) or name.split("_")[-1] in {"ratio", "ratios", "share", "factor"}
 
 
 def numbers_described(text):
-    """Yield (names, what is said of them) of each parameter or field of a docstring that is a number or an array of numbers."""
+    """Yield (names, description) of each numeric parameter or field of a docstring."""
     lines = text.splitlines()
     for i, line in enumerate(lines):
         result = re.fullmatch(r"([a-z_]\w*(?:, [a-z_]\w*)*) : (.*\b(?:floats?|arrays?)\b(?! of (?:int|bool)).*)", line)

@@ -57,7 +57,7 @@ def test_batch_row(benchmark, solver, bodies, options, single):
 
 
 def test_batch_on_two_dask_processes(benchmark, tmp_path):
-    """Two of a local cluster against one; what client and scheduler take of a record is told beside, which no load changes."""
+    """Two workers of a local cluster against one; overhead of client and scheduler is reported, independent of load."""
     pytest.importorskip("distributed")
     if benchmark.disabled or cpu_count() < 2 or os.getloadavg()[0] > 0.5:
         pytest.skip("is a measurement, on two idle cores")

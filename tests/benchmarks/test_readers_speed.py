@@ -44,7 +44,7 @@ def test_read_table_of_20_minutes(benchmark, tmp_path):
 
 
 def test_read_knet_set_of_5_minutes(benchmark, tmp_path):
-    """Three files of 30 000 counts through obspy, in under 0.3 s."""
+    """Three files of 30 000 counts through ObsPy, in under 0.3 s."""
     counts = [int(x) for x in 1e5 * rows(30000)[:, 0]]
     for code, direction in (("NS", "N-S"), ("EW", "E-W"), ("UD", "U-D")):
         (tmp_path / f"a.{code}").write_text(knet(counts, direction=direction))
@@ -54,7 +54,7 @@ def test_read_knet_set_of_5_minutes(benchmark, tmp_path):
 
 
 def test_text_readers_import_no_large_package():
-    """JMA CSV, AT2 and plain tables are read without obspy, scipy, pandas or matplotlib."""
+    """JMA CSV, AT2 and plain tables are read without ObsPy, scipy, pandas or matplotlib."""
     code = (
         "import sys, seisblock; seisblock.read('synthetic_jma.csv'); seisblock.read('elcentro_1940_ns'); "
         "print([m for m in ('obspy', 'scipy', 'pandas', 'matplotlib', 'numba') if m in sys.modules])"

@@ -51,7 +51,7 @@ def test_block_array_from_blocks_keeps_order():
 
 
 def test_block_array_rejects_invalid_row_like_block():
-    """The first of them says what is wrong."""
+    """The first invalid row gives the message."""
     with pytest.raises(BodyError, match=r"width must be positive.*-1"):
         rectangular_blocks([0.3, -1.0], [0.9, 0.9])
     with pytest.raises(ParameterError, match=r"is too large for a base 0\.3 m wide"):

@@ -1,4 +1,4 @@
-"""Blocks come from sizes, TOML files and bundled bodies; what is wrong in them is said in one sentence."""
+"""Blocks from sizes, TOML files and bundled bodies; faults are named in one sentence."""
 
 import math
 
@@ -106,7 +106,7 @@ def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
     ],
 )
 def test_body_options_report_missing_values(values, says):
-    """The message says what is missing."""
+    """The message names the missing entry."""
     with pytest.raises(BodyError, match=says):
         choose_block(values)
 

@@ -13,7 +13,7 @@ from seisblock.studies.report.models import body_models
 
 
 def read_table(tmp_path, text, encoding="utf-8"):
-    """Return what a table says of its bodies."""
+    """Return the bodies of a table."""
     path = tmp_path / "bodies.csv"
     path.write_bytes(text.encode(encoding))
     return {body.name: dict(body.parameters) for body in read_bodies(path)}

@@ -1,4 +1,4 @@
-"""A cemetery is read from the tables that survey teams write; what is wrong in one is named by its line."""
+"""Cemeteries are read from tables of survey teams; errors name the line."""
 
 from __future__ import annotations
 

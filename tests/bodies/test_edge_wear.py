@@ -90,7 +90,7 @@ def test_only_bundled_gravestones_are_worn():
 
 
 def test_spectrum_of_worn_blocks_equals_solve_rock():
-    """rocking_spectrum tells the lean over the alpha that is left, as solve_rock does."""
+    """rocking_spectrum gives the tilt over the remaining alpha, as solve_rock does."""
     motion = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, 6 * np.pi, 301)), 0.01)
     spectrum = rocking_spectrum([1.0], [0.3], motion, inset=DEFAULT_WEAR)
     single = solve_rock(Block(math.sin(0.3), math.cos(0.3)).with_wear(DEFAULT_WEAR), motion).outcome
@@ -100,7 +100,7 @@ def test_spectrum_of_worn_blocks_equals_solve_rock():
 
 @pytest.fixture
 def run(capsys):
-    """Run a command; the document and what was said on stderr."""
+    """Run a command; return the document and stderr."""
 
     def call(*words):
         code = main([*map(str, words), "--json"], standalone_mode=False) or 0
@@ -113,7 +113,7 @@ def run(capsys):
 
 @pytest.mark.parametrize("command", ["rock", "criteria"])
 def test_inset_option_is_equal_in_every_command(run, command):
-    """--inset as a share, as a percentage and as a length are the same stone; the output says how it is worn."""
+    """--inset as a share, a percentage and a length give the same stone; the output states the wear."""
     words = (command, "elcentro_1940_ns.csv", "--width", "24cm", "--height", "72cm", "--inset")
     items = [run(*words, text) for text in ("0.1", "10%", "24mm")]
     assert items[0][0]["results"] == items[1][0]["results"] == items[2][0]["results"]
@@ -123,7 +123,7 @@ def test_inset_option_is_equal_in_every_command(run, command):
 
 
 def test_overturn_rate_converts_old_inset_and_warns(run):
-    """`overturn-rate --inset 0.8` of 0.1.0, pivots over half width, is 0.1 per side, and says so on stderr and in the document."""
+    """`overturn-rate --inset 0.8` of 0.1.0, pivots over half width, is 0.1 per side, as stderr and document state."""
     words = ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", 400, "--frequency", 1, "--criterion", "simulate", "--inset")
     (old, message), (new, _) = run(*words, "0.8"), run(*words, "0.1")
     assert old["results"] == new["results"]
@@ -134,7 +134,7 @@ def test_overturn_rate_converts_old_inset_and_warns(run):
 
 
 def test_inset_has_no_effect_on_eq_9_and_says_so(run):
-    """--inset changes nothing of eq. (9), and says so instead of keeping silent."""
+    """--inset has no effect on eq. (9), which a message states."""
     words = ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", 400, "--frequency", 1)
     plain, message = run(*words)[0], run(*words, "--inset", "0.05")[0]
     assert plain["results"] == message["results"]

@@ -81,7 +81,7 @@ def test_two_layer_contact_rejects_invalid_values(value, tmp_path):
 
 
 def test_source_is_always_file_name(tmp_path):
-    """``source`` is the name of the file, whatever it says."""
+    """``source`` is the name of the file, whatever its content."""
     path = write_body(tmp_path, 'kind = "block"\nsource = "another"\nwidth = 0.3\n')
     with pytest.raises(BodyError, match=r"body\.toml: height is missing"):
         load_block(path)
@@ -114,7 +114,7 @@ def test_unreadable_file_states_system_reason(tmp_path):
 
 
 def test_pile_with_too_many_stones_is_rejected(tmp_path):
-    """Each pair of stones is looked at: the number is refused with what is allowed."""
+    """The number of pairs of stones is limited; the error names the limit."""
     stone = "[[stone]]\nname = '{i}'\nwidth = 1\ndepth = 1\nheight = 1\n"
     path = write_body(tmp_path, "kind = 'pile'\n" + "".join(stone.format(i=i) for i in range(5000)))
     start = time.process_time()
@@ -133,7 +133,7 @@ def test_pile_with_too_many_stones_is_rejected(tmp_path):
     ],
 )
 def test_empty_or_foreign_encoded_file_is_rejected(tmp_path, content, reason):
-    """Neither an empty file nor one saved in another encoding is told in words of the decoder."""
+    """An empty file and a wrong encoding give messages without terms of the decoder."""
     path = tmp_path / "body.toml"
     path.write_bytes(content)
     with pytest.raises(BodyError, match=reason) as error:

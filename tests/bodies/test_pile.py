@@ -1,4 +1,4 @@
-"""A pile is what its file says, and a pile that cannot stand is refused in one sentence."""
+"""A pile follows its file, and one that cannot stand is rejected in one sentence."""
 
 import math
 import re

@@ -89,7 +89,7 @@ def test_scanned_box_equals_block_along_its_sides(box_scan):
 
 @pytest.mark.parametrize("sides", [4, 12])
 def test_zero_products_of_inertia_are_exactly_zero(sides, tmp_path):
-    """Sums over triangles leave 1e-18 of them, which was told as a number."""
+    """Sums over triangles leave 1e-18 of round-off, which was reported as a value."""
     path = write_ply(tmp_path / "body.ply", *frustum(sides, 0.3, 0.1, 0.9))
     inertia = np.array(scan_body(path).body.inertia)
     assert (inertia[~np.eye(3, dtype=np.bool_)] == 0.0).all() and (np.diag(inertia) > 1.0).all()
@@ -108,7 +108,7 @@ def test_scanned_box_pivots_at_corner_between_sides(box_scan, azimuth):
 
 
 def test_facing_rotates_the_body(box_scan):
-    """A body that faces 40 degrees further round meets a motion that comes 40 degrees further round as it did before."""
+    """A body and a motion both turned by 40 degrees give the same response."""
     rotated = ScannedBody(**{**vars_of(box_scan.body), "facing": 130.0})
     for azimuth in (0.0, 17.0, 200.0):
         before, after = box_scan.body.block_toward(azimuth), rotated.block_toward(azimuth + 40.0)
@@ -148,7 +148,7 @@ def test_scan_accepts_any_up_axis(up, tmp_path):
 
 
 def test_tilted_scan_is_levelled(tmp_path, box_scan):
-    """A box turned by 4 degrees about any level axis rests on its base again: the same body, and the turn is told."""
+    """A box turned by 4 degrees about any level axis rests on its base again; the turn is reported."""
     vertices, faces = box(0.3, 0.4, 0.9)
     leaning = vertices @ Rotation.from_rotvec(math.radians(4.0) * np.array([math.cos(1.0), math.sin(1.0), 0.0])).as_matrix().T
     scan = scan_body(write_ply(tmp_path / "leaning.ply", leaning + 0.7, faces), density=2000.0)
@@ -225,7 +225,7 @@ def test_hull_keeps_extreme_points():
 
 
 def test_inset_may_remove_a_side():
-    """A short side between two long ones is gone when they meet before it; beyond the deepest point nothing is left."""
+    """A short side between two long ones vanishes with the inset; beyond the deepest point nothing remains."""
     roof = convex_hull([(-2.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.9, 1.1), (-2.0, 1.1)])
     assert len(offset_polygon(roof, 0.2)) == 4 and len(roof) == 5
     assert len(offset_polygon(roof, 0.6)) == 0
@@ -281,7 +281,7 @@ def test_scanned_box_rocks_like_block(box_scan):
 
 
 def test_scan_requires_azimuth_of_motion():
-    """An azimuth and the code of a component both say where +x points; a motion of numbers alone does not, and a scan is told so."""
+    """An azimuth or the code of a component defines +x; a motion of bare numbers does not, and a scan rejects it."""
     record = read("synthetic_jma.csv")
     assert [motion_of(record, name).azimuth_deg for name in ("NS", "EW", "37")] == [0.0, 90.0, 37.0]
     body, bare = load_scan("boulder"), Motion.from_arrays([0.0, 1.0], 0.01)
@@ -398,7 +398,7 @@ def test_scan_without_inset_warns_of_sharp_edges():
 
 
 def test_scan_reports_separate_surfaces(tmp_path):
-    """A second surface that does not touch the first is told of; a vertex that no triangle has is none."""
+    """A second, separate surface is reported; an unused vertex is not."""
     vertices, faces = BOX
     target = write_ply(
         tmp_path / "both.ply", np.concatenate([vertices, vertices * 0.1 + (0.0, 0.0, 1.2)]), np.concatenate([faces, faces + 10])
@@ -447,7 +447,7 @@ def test_read_body_toml_names_the_command_that_makes_a_body_of_a_mesh():
 
 
 def test_contact_summary_compares_contacts_with_the_support_polygon():
-    """A rough scan stands on three vertices, whose triangle lies nearer to the centre of gravity than the polygon within the tolerance."""
+    """A rough scan stands on three vertices, whose triangle is nearer to the centre of gravity than the polygon within the tolerance."""
     text = str(contact_summary(convex_body(load_scan("boulder"))))
     assert "stands on 3 of 1097 hull vertices" in text
     assert re.search(r"0\.3 cm \(contacts\), 7\.9 cm \(support polygon", text), text

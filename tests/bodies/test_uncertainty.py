@@ -41,7 +41,7 @@ def test_printed_prior_read_back_gives_same_samples(kind, tmp_path):
 
 
 def test_bundled_body_has_ranges_in_metres():
-    """In metres, whatever the unit of its file; a lantern tells none."""
+    """Lengths are in metres for any unit of the file; a lantern has none."""
     assert load_block("refrigerator").ranges == FRIDGE
     case = load_block("bookcase").ranges
     assert case.height_m == pytest.approx((29 * 0.0254, 81.25 * 0.0254)) and case.mu == (0.2, 0.7)

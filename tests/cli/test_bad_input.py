@@ -22,7 +22,7 @@ def table(path, header, *gal):
 
 @pytest.fixture
 def run(tmp_path, monkeypatch):
-    """Run a command in a directory of its own; return exit code and what is said on stderr."""
+    """Run a command in its own directory; return exit code and stderr."""
     monkeypatch.chdir(tmp_path)
 
     def run(*words):
@@ -70,7 +70,7 @@ def test_files_with_implausible_size_are_rejected(run, tmp_path):
 
 
 def test_ambiguous_column_t_is_rejected(run, tmp_path):
-    """T may be the time: said, not guessed."""
+    """An ambiguous column T is reported, not guessed."""
     name = table(tmp_path / "ltv.csv", "t,L,T,V", 100, 200, 50)
     code, message = run("measure", name)
     assert code == 3 and "'T' may be time or the transverse direction" in message
@@ -141,7 +141,7 @@ def test_component_azimuth_uses_azimuths_of_record(tmp_path, header, azimuths):
 
 
 def test_channels_without_vertical_are_rejected(tmp_path):
-    """CH1, CH2, CH3 are accelerations by their unit, but which is up is not known: said."""
+    """CH1, CH2, CH3 are accelerations by their unit; the unknown vertical is reported."""
     from seisblock.readers import read
 
     table(tmp_path / "rec.csv", "time,CH1 (gal),CH2 (gal),CH3 (gal)", 100, 60, 20)

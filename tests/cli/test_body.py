@@ -69,7 +69,7 @@ def test_body_document_csv_and_rock_agree(stone, tmp_path):
 
 
 def test_each_component_uses_arms_of_its_azimuth(stone):
-    """NS and EW find other arms, told beside each answer; respond and criteria take the same ones."""
+    """NS and EW have different arms, shown beside each result; respond and criteria use the same ones."""
     body = load_scan(stone)
     expected = [min(body.block_toward(azimuth).slendernesses) for azimuth in (0.0, 90.0)]
     rocked = document("rock", *SHORT, "--block", stone)["results"]
@@ -111,7 +111,7 @@ def test_batch_of_scan_equals_single_commands(solver, stone, tmp_path):
 
 
 def test_batch_of_scan_without_azimuth_fails_its_row_only(stone, tmp_path):
-    """A record of which nobody knows how it lay: one sentence in its row, and of the single command."""
+    """A record without an azimuth gives one sentence in its row, and of the single command."""
     record = tmp_path / "record.csv"
     record.write_text("time,a (gal)\n" + "".join(f"{0.01 * i:.2f},{i % 7}\n" for i in range(200)), encoding="utf-8")
     result = run("rock", record, "--block", stone)
@@ -158,7 +158,7 @@ def test_body_without_trimesh_names_extra(monkeypatch):
 
 
 def test_scan_rejects_unsupported_solvers():
-    """One block for all directions, a jump, a pile: each says why not."""
+    """One block for all directions, a jump and a pile: each states the reason."""
     for words in (("report", "-o", "x.html", "--body", "boulder"), ("jump", "--block", "boulder"), ("stack", "--stones", "boulder")):
         result = run(*words)
         assert result.exit_code == 3 and "scan" in result.stderr, words

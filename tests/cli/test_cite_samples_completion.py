@@ -86,7 +86,7 @@ def test_samples_copy_refuses_to_overwrite_without_option(tmp_path):
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_prints_script_per_shell(shell):
-    """Each shell's script calls the program back; where it belongs is said on stderr."""
+    """The script of each shell calls the program; its place is named on stderr."""
     answer = run("completion", shell)
     assert answer.exit_code == 0 and "_SEISBLOCK_COMPLETE" in answer.stdout
     assert "seisblock completion" in answer.stderr
@@ -122,7 +122,7 @@ BASH = shutil.which("bash")
     ids=" ".join,
 )
 def test_bash_completes_names_and_files(words, offered, tmp_path):
-    """The script itself, run by bash: what is bundled stands beside the files there are."""
+    """The script run by bash offers bundled names beside files."""
     for name in ("synthetic_mine.csv", "granite.toml"):
         (tmp_path / name).touch()
     program, folder = tmp_path / "bin" / "seisblock", tmp_path / "bin"

@@ -29,7 +29,7 @@ def draw_figure(tmp_path):
     ],
 )
 def test_size_and_dpi_set_figure_dimensions(draw_figure, words, pixels):
-    """200 dots per inch unless told otherwise; centimetres unless a unit is named."""
+    """200 dots per inch by default; centimetres unless a unit is given."""
     text, result = draw_figure(*words)
     assert text.exit_code == 0, text.output
     assert result == pytest.approx(pixels, abs=1)
@@ -66,7 +66,7 @@ def test_title_is_plain_text_and_requires_plot(tmp_path):
 
 
 def test_figure_options_exist_only_where_effective():
-    """F6: what has no film has no option for one; what --csv holds is said where it is no time history."""
+    """F6: commands without an animation lack the option; the content of --csv is stated where it is no time history."""
     for command, film, history in (("slide", True, True), ("uplift", True, True), ("criteria", False, False), ("spectrum", False, False)):
         text = " ".join(CliRunner().invoke(main, [command, "--help-all"]).output.split())
         assert ("--animate" in text) == film and ("--slow " in text) == film

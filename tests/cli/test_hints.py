@@ -16,7 +16,7 @@ VALUES = (
 
 
 def preparation_options(line):
-    """Return what `respond` is told of its record by a line."""
+    """Return the record information that a line gives to `respond`."""
     texts = main.get_command(None, "respond").make_context("respond", shlex.split(line), resilient_parsing=False).params
     names = (
         "record",

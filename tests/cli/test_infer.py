@@ -106,7 +106,7 @@ def test_infer_from_observed_stones_separates_reinforced(run, document, survey, 
 
 
 def test_infer_none_or_all_fallen_gives_bound(run, document):
-    """None fallen is an upper bound, all fallen a lower one; both are said."""
+    """None fallen is an upper bound, all fallen a lower one, and both are stated."""
     (none,) = document("--rate", "0/50", "--cemetery", "aoyama.csv", "--frequency", 1)["results"]
     assert none["bound"] == "upper"
     assert none["pga_m_s2"] is None
@@ -118,7 +118,7 @@ def test_infer_none_or_all_fallen_gives_bound(run, document):
 
 
 def test_infer_from_sliding_lists_factors(run, document):
-    """Each component of each candidate record is answered with its factors; one that never moves so far says how far it does."""
+    """Each component of each candidate has its factors, or its largest displacement where none suffices."""
     answer = document("--slid", "0.35m", "--mu", 0.3, "synthetic_jma.csv", "elcentro_1940_ns.csv", "--steps", 60)
     assert [(item["record_index"], item["component"]) for item in answer["results"]] == [(0, "NS"), (0, "EW"), (1, "NS")]
     for result in answer["results"][:2]:
@@ -138,7 +138,7 @@ def test_infer_from_sliding_lists_factors(run, document):
 
 
 def test_infer_from_jump_uses_bundled_block(document):
-    """The bundled Chozu-sha is taken by name, and what the record does by itself is told beside the factors."""
+    """The bundled Chozu-sha is used by name, with the displacement under the unscaled record."""
     (answer,) = document("--jumped", "0.04m", "--block", "chozusha", "--drop", 0, "--component", "EW", "--steps", 60, "--limit", 1.5)[
         "results"
     ]
@@ -152,7 +152,7 @@ def test_infer_from_jump_uses_bundled_block(document):
 
 
 def test_infer_jump_continues_beyond_window(document):
-    """The window says when rocking may start; the chain that starts in it is followed to its end (N4, N5)."""
+    """The window limits the start of rocking; the chain that starts in it is solved to its end (N4, N5)."""
     words = ("--jumped", "10cm", "--drop", 0, "--component", "EW", "--steps", 20, "--limit", 1.5)
     (inside,) = document(*words, "--window", "26.1:26.2")["results"]
     assert inside["displacement_at_1_m"] == pytest.approx(0.1743, abs=1e-3)

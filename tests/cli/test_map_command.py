@@ -116,7 +116,7 @@ def test_map_reports_bad_input_in_one_sentence(words, code, says, tmp_path):
 
 
 def test_map_warns_of_records_far_apart_in_time():
-    """Two records of April and November 2016, one of which tells no earthquake: the answer stands, beside a sentence with the span."""
+    """Two records seven months apart, one without an earthquake: a result with a warning that names the span."""
     result = CliRunner().invoke(main, ["map", "synthetic_jma.csv", "hanmer_springs_2016", "--json"])
     assert result.exit_code == 0 and len(json.loads(result.stdout)["results"]) == 2
     (doubt,) = (warning for warning in json.loads(result.stdout)["warnings"] if "days apart" in warning)
@@ -136,7 +136,7 @@ def test_map_warns_of_records_far_apart_in_time():
     ],
 )
 def test_map_states_outcome_of_every_solver(words, says, heads, monkeypatch):
-    """The verdict in its own words, what it tells of, and its papers; a name of several words is not broken within one."""
+    """The map has verdict, subject and papers; a name of several words breaks between words only."""
     monkeypatch.setenv("COLUMNS", "80")
     result = CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split()])
     assert result.exit_code == 0 and says in result.stdout, result.stderr

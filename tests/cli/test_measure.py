@@ -1,4 +1,4 @@
-"""``seisblock measure`` tells what a record is, in a table, a document, a file and a figure."""
+"""``seisblock measure`` prints the measures of a record in a table, a document, a file and a figure."""
 
 import csv
 import json
@@ -172,7 +172,7 @@ def test_measure_without_record_uses_sample(run):
 
 
 def test_help_lists_processing_options_in_order(run):
-    """The mean goes before the high-pass, which said that it comes first; a target PGA is that of the whole record, not of the window."""
+    """The mean is removed before the high-pass; a target PGA applies to the whole record, not to the window."""
     output = json.loads(run("elcentro_1940_ns", "--window", "20:", "--target-pga", "300", "--highpass", "0.1", "--demean", "--json").stdout)
     steps = [next(i for i, did in enumerate(output["record"]["history"]) if word in did) for word in ("mean", "pass", "PGA", "window")]
     assert steps == sorted(steps)

@@ -41,7 +41,7 @@ def test_lengths_accept_full_width_characters():
 
 @pytest.mark.parametrize(("name", "azimuth"), [("N45E", "45"), ("s30.5w", "210.5"), ("NW", "315"), ("45°", "45"), ("10度", "10")])
 def test_component_bearing_is_rejected_with_azimuth(name, azimuth):
-    """The message says what to write; a record that has a component of that name has it, and names that are none are listed alone."""
+    """The message names the accepted notation; a record with a component of that name uses it."""
     result = CliRunner().invoke(main, ["slide", "--mu", "0.2", "--component", name])
     assert result.exit_code == 3
     assert f"for an azimuth in degrees clockwise from north, write {azimuth}" in " ".join(result.stderr.split())

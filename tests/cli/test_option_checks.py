@@ -1,4 +1,4 @@
-"""An option that has nothing to do in a call is refused: whoever gives one believes that it acts."""
+"""Options without effect in a call are rejected."""
 
 import json
 import shlex

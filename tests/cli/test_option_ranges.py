@@ -1,4 +1,4 @@
-"""Values of options that nobody can mean: refused in one sentence, in the language asked for."""
+"""Values outside the range of an option are rejected in one sentence in the selected language."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ def test_mu_option_overrides_friction_of_file():
 
 @pytest.mark.parametrize("value", ["1e-300", "1e-17", "1e-300cm"])
 def test_scan_with_tiny_inset_keeps_its_base(value, recwarn):
-    """It turns about the edges of its base; it was said to have none left."""
+    """The body turns about the edges of its base, which it was reported to lack."""
     sharp, worn = (run("body", "boulder.ply", "--inset", inset) for inset in ("0", value))
     assert sharp[0] == worn[0] == 0 and sharp[1].splitlines()[0] == worn[1].splitlines()[0]
     assert not recwarn.list
@@ -174,7 +174,7 @@ def test_interval_level_rounding_to_zero_is_rejected():
     ],
 )
 def test_unused_option_is_still_validated(line, value):
-    """An option that this line has no use for: it was taken, and nothing said."""
+    """An option without effect in this call is rejected."""
     code, answer, message = run(*line, value)
     assert (code, answer) == (2, "") and f"'{line[-1]}': the value must be a finite number, found {value}" in message
 

@@ -1,4 +1,4 @@
-"""``seisblock overturn-rate`` tells which share of a cemetery falls: the curve, a record's rates, what dowels would save."""
+"""``seisblock overturn-rate``: curve of the rate, rates under a record, and the effect of dowels."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def test_overturn_rate_both_without_record_draws_both_curves(run, monkeypatch):
 
 
 def test_overturn_rate_of_reinforced_stones(run, document):
-    """--reinforced judges by (10), --both says what all dowels save, --most-fragile what a few do."""
+    """--reinforced applies (10), --both shows the effect of all dowels, --most-fragile that of a few."""
     words = ("--cemetery", "aoyama.csv", "--pga", 725, "--frequency", 2.75)
     (dowelled,) = document(*words, "--reinforced")["results"]
     assert dowelled["threshold_ratio"] == pytest.approx(float(overturning_ratio(7.25, 2.75, DOWELLED)))
@@ -242,7 +242,7 @@ def test_overturn_rate_csv_has_row_per_result(document, sines, words):
     ],
 )
 def test_overturn_rate_warns_outside_fit(run, words, message):
-    """An implausible PGA and numbers outside the fit are said on stderr, and in the document."""
+    """An implausible PGA and values outside the fit give warnings on stderr and in the document."""
     result = run("--cemetery", "aoyama.csv", *words, "--json")
     assert message in result.stderr
     document = json.loads(result.stdout)

@@ -71,7 +71,7 @@ def test_broken_pipe_leaves_stderr_empty(line, tmp_path):
 
 
 def run_interrupted(words, cwd, wait):
-    """Start a command in its own group, send SIGINT once `wait` says so, return exit code and stderr."""
+    """Start a command in its own group, send SIGINT after `wait`, return exit code and stderr."""
     pipe = subprocess.PIPE
     command = [sys.executable, "-m", "seisblock", *words]
     with subprocess.Popen(command, cwd=cwd, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
@@ -85,7 +85,7 @@ def run_interrupted(words, cwd, wait):
 
 
 def test_sigint_exits_130_and_leaves_no_partial_file(tmp_path):
-    """Ctrl-C while pictures are drawn: the old file stands, nothing lies beside it, one line is said."""
+    """Ctrl-C while frames are drawn keeps the old file, leaves no temporary file and prints one line."""
     film = tmp_path / "film.gif"
     film.write_bytes(b"old")
 
@@ -170,7 +170,7 @@ def test_progress_bar_appears_on_terminal_for_long_work_only(tmp_path, monkeypat
 
 @pytest.fixture(scope="module")
 def brief_samples(tmp_path_factory):
-    """The bundled files, the record among them that is meant where none is named cut to its shaking."""
+    """Bundled files, with the default record cut to its strong part."""
     folder = tmp_path_factory.mktemp("samples") / "bundled"
     shutil.copytree(samples.sample_directory(), folder)
     (folder / samples.DEFAULT_SAMPLE).write_bytes(brief_record())
@@ -270,7 +270,7 @@ def test_main_is_repeatable_in_one_process(tmp_path):
     ],
 )
 def test_library_parameter_names_become_options_in_errors(tmp_path, monkeypatch, words, text):
-    """A sentence from below names parameters as Python does; the command line tells them as its own options, in any language."""
+    """Parameter names of library messages are printed as options by the command line, in any language."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bare.csv").write_text("NS (gal)\n" + "1\n2\n" * 50, encoding="utf-8")
     from seisblock.core.errors import InputError

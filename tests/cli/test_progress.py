@@ -1,4 +1,4 @@
-"""Whatever takes more than a second says what it does, on a terminal, and leaves nothing behind."""
+"""A command that takes more than a second shows a progress line on a terminal, and removes it."""
 
 import os
 import pty
@@ -47,7 +47,7 @@ WORKS = {
     "drawing": "slide record.csv --mu 0.2 --plot slide.png",
     "writing slide.csv": "slide record.csv --mu 0.2 --csv slide.csv",
 }
-"""What a line says, and a command that says so."""
+"""Text of a progress line, and a command that shows it."""
 
 QUIET = f"{WORKS['drawing']} --quiet"
 
@@ -91,7 +91,7 @@ def command_output(tmp_path_factory):
 
 
 def read(terminal):
-    """Return what is on a terminal, nothing at its end."""
+    """Return the text on a terminal, empty at its end."""
     try:
         return os.read(terminal, 65536)
     except OSError:
@@ -126,7 +126,7 @@ def test_kernel_compilation_shows_progress(tmp_path):
 
 @pytest.mark.parametrize("work", WORKS)
 def test_long_steps_show_progress_and_clear_it(work, command_output):
-    """While a command reads, computes, draws and writes, a line says so; in the end only what was said stands there."""
+    """Reading, computing, drawing and writing have a progress line; at the end only the messages remain."""
     off, on = (place[WORKS[work]] for place in command_output)
     assert re.search(rf"{work}[^\n]*━", on)
     assert "━" not in off
@@ -140,7 +140,7 @@ def test_quiet_shows_no_progress(command_output):
 
 @pytest.mark.slow
 def test_long_motion_shows_share_completed(tmp_path):
-    """While the engine follows it, the line says which share of it is behind."""
+    """The line shows the completed share of the integration."""
     text = on_a_terminal(LONG_MOTION, [], tmp_path)
     shares = [int(share) for share in re.findall(r"solving[^\r]*?(\d+) ?%", text)]
     assert len(set(shares)) > 2
@@ -148,7 +148,7 @@ def test_long_motion_shows_share_completed(tmp_path):
 
 
 def test_reported_samples_increase_to_the_last():
-    """The engine tells a motion piece by piece to its end; it begins anew where it needs more room for events."""
+    """The engine reports progress piece by piece, and starts again where it needs larger event tables."""
     motion, text = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(300_000)), 0.01), []
     with progress_scope(lambda result, total: text.append((result, total))):
         solve_slide(0.2, motion)

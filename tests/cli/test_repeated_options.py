@@ -24,7 +24,7 @@ def test_repeated_single_value_option_is_rejected(name):
 
 
 def test_multiple_options_and_flags_may_be_repeated():
-    """Components are gathered, the last of two flags is meant, and help is help."""
+    """Components accumulate, the last of two flags applies, and help is printed."""
     words = ["measure", "synthetic_jma.csv", "--component", "NS", "--component", "EW", "--gal", "--si", "--quiet", "--quiet"]
     result = CliRunner().invoke(main, words)
     assert result.exit_code == 0 and "m/s²" in result.stdout

@@ -83,7 +83,7 @@ def page_of_square(square):
 
 
 def test_report_title_has_file_name_without_folder(tmp_path):
-    """A record of no station is called by its file in the title of the page and of its figures; where that lies is nobody's business."""
+    """A record without a station is named by its file, without its folder, in the titles of page and figures."""
     path = tmp_path / "somewhere" / "shaken.csv"
     path.parent.mkdir()
     path.write_text("time (s),NS (gal)\n0.00,0\n0.01,1\n0.02,-1\n0.03,0\n", encoding="utf-8")
@@ -95,7 +95,7 @@ def test_report_title_has_file_name_without_folder(tmp_path):
 
 @pytest.mark.slow
 def test_report_states_processing_before_outcomes(square, page_of_square):
-    """F4: a page of a scaled record says so before it says anything else, in either language; one of a record as read does not."""
+    """F4: a page of a scaled record begins with the scaling in both languages; that of an unscaled one does not."""
     scaled = collect_responses(Preparation(scale=0.5).apply(square.record), [body_models("1x1")], components=["EW"])
     for lang, text in (("en", "Processing: "), ("ja", "記録の処理：")):
         with use_locale(lang):
@@ -107,7 +107,7 @@ def test_report_states_processing_before_outcomes(square, page_of_square):
 
 @pytest.mark.slow
 def test_report_provenance_from_python_is_reproducible(square, page_of_square, pages, monkeypatch):
-    """F4: how the process was started has no say: the page names the command it is told, or that there was none, twice the same."""
+    """F4: the page names the command that it is given, or none, independent of how the process was started."""
     monkeypatch.setattr("sys.argv", ["/home/somebody/notebook.py", "--secret"])
     page = report(square)
     assert "notebook.py" not in page and "<dd>none (called from Python)</dd>" in page
@@ -153,7 +153,7 @@ def test_report_fits_390_px(pages, lang, tmp_path):
 
 
 def test_report_has_viewport_and_print_style(pages):
-    """It tells the width of the device, and has a style of its own for print."""
+    """The page adapts to the width of the device and has a print style."""
     assert 'name="viewport"' in pages["en"] and "@media print" in pages["en"]
     assert '<html lang="en">' in pages["en"] and '<html lang="ja">' in pages["ja"]
 
@@ -186,7 +186,7 @@ def test_report_states_digest_format_and_citations(pages):
 
 
 def test_report_outcome_equals_solve_rock(pages):
-    """The gravestone overturns, as solve_rock says, and the margin stands beside it."""
+    """The gravestone overturns as in solve_rock, with the margin beside it."""
     outcome = solve_rock(load_block("gravestone"), motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")).outcome
     assert outcome.overturned
     assert f"overturning to {outcome.overturned_towards[0]}EW at {outcome.overturning_time_s:.2f}\xa0s" in pages["en"]
@@ -213,7 +213,7 @@ def test_report_card_states_best_estimate(pages):
 
 @pytest.mark.slow
 def test_report_card_states_assumed_friction(tmp_path):
-    """Sizes alone: the card says which friction it takes, and that it was not given."""
+    """With sizes alone the card states the assumed friction."""
     page = tmp_path / "report.html"
     answer = CliRunner().invoke(main, ["report", "elcentro_1940_ns.csv", "--body", "0.3x1.2", "-o", str(page), "--quiet"])
     assert answer.exit_code == 0, answer.stderr
@@ -232,7 +232,7 @@ def test_report_rejects_bad_input_in_one_sentence(tmp_path):
 
 @pytest.mark.slow
 def test_report_of_single_component_record(tmp_path):
-    """No vertical, no intensity: the page says what there is."""
+    """Without a vertical component there is no intensity: the page lists the components."""
     page = tmp_path / "report.html"
     answer = CliRunner().invoke(main, ["report", "elcentro_1940_ns.csv", "--body", "0.3x1.2", "--mu", "0.2", "-o", str(page), "--quiet"])
     assert answer.exit_code == 0 and answer.stderr == ""

@@ -62,7 +62,7 @@ def test_respond_prints_outcome_then_probability():
 
 @pytest.mark.parametrize("words", [("--width", "60cm", "--height", "60cm", "--mu", "1.2"), ("--block", "gravestone")])
 def test_respond_of_weak_record_reports_no_motion(words, tmp_path):
-    """A weak record: the sentence says so, and no displacement is minus zero."""
+    """A weak record: the sentence states no motion, and no displacement is minus zero."""
     output = " ".join(run("elcentro_1940_ns", *words, "--scale", "0.1", "--runs", "5", "--quiet").stdout.split())
     assert (
         re.search("NS: remains at rest; (rocking|sliding) threshold ", output)
@@ -80,7 +80,7 @@ def test_respond_bundled_bodies_have_friction():
 
 
 def test_respond_surface_sets_friction_with_source():
-    """--surface takes friction from the table, and the source is told."""
+    """--surface takes friction from the table and states the source."""
     result = run("elcentro_1940_ns", "--width", "45cm", "--height", "180cm", "--surface", "wood/stone", "--runs", "0")
     assert "mu 0.18, kinetic 0.17" in result.stderr and "Sugimoto2017" in result.stderr
 
@@ -190,7 +190,7 @@ def test_respond_figure_has_panels_of_actual_motion_only():
     ids=["within sight", "twice the peak", "far away"],
 )
 def test_respond_legend_names_visible_lines_only(mu, names):
-    """Beside what rests stands how much more it takes; what lies far beyond the picture is told in words, without a line."""
+    """A resting body has its factor to the threshold; thresholds outside the figure are given in words, without a line."""
     motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
     (axis,) = figure([solve_respond(Block(10.0 * mu, 0.9), motion, mu=mu)]).axes
     assert axis.get_legend_handles_labels()[1] == names
@@ -218,7 +218,7 @@ def test_respond_reports_overturning_after_record(tmp_path):
 
 
 def test_respond_slides_at_friction_equal_to_slenderness():
-    """At mu = b/h the closed form of initiation slides: so does the body, and so says the table."""
+    """At mu = b/h the closed form of initiation slides, as do the body and the table."""
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.5", "--runs", "0", "--quiet", "--component", "NS", "--no-vertical")
     output = run(*words).stdout
     assert "slides first, above 490 gal" in output and "no rocking" in output

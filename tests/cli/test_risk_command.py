@@ -95,7 +95,7 @@ def test_risk_rejects_fragility_in_other_measure(run, tmp_path):
 
 
 def test_risk_states_and_doubts_unit_of_bare_median(run):
-    """60 cm/s written as 60 is 60 m/s: which unit it was taken in is said, and the doubt is about the median, not about the table."""
+    """60 cm/s written as 60 is 60 m/s: the assumed unit is stated, and the warning is about the median, not the table."""
     words = ("--beta", "0.4", "--im", "pgv", "--hazard", "synthetic_hazard.csv")
     output = " ".join(run("--median", "60", *words).stderr.split())
     assert "median 60 has no unit: read as m/s" in output

@@ -1,4 +1,4 @@
-"""``seisblock rock`` tells whether a block overturns, and how close it was, in a table, a document, a file and a figure."""
+"""``seisblock rock`` reports overturning and its margin in a table, a document, a file and a figure."""
 
 import csv
 import json
@@ -83,7 +83,7 @@ def test_rock_sizes_in_sun_equal_bundled_gravestone(run, pulse):
 
 
 def test_rock_kind_sets_edge_wear(run, pulse):
-    """A gravestone by its sizes is the bundled one; furniture is sharp, an inset goes before the kind, and a file tells its own."""
+    """A gravestone by its sizes equals the bundled one; furniture is sharp; an inset precedes the kind, and a file its own values."""
     sizes = ("--width", "8sun", "--height", "20.8sun", "--perturb", "4", "--json")
     output = json.loads(run(pulse, "--block", "gravestone", "--perturb", "4", "--json").stdout)
     assert json.loads(run(pulse, *sizes, "--kind", "gravestone").stdout)["results"] == output["results"]
@@ -123,7 +123,7 @@ def test_rock_azimuth_180_mirrors_azimuth_0(run, pulse):
 
 
 def test_rock_margin_and_probability_of_pulse(run, pulse):
-    """One pulse: safe below one factor, unsafe above; the probability lies within its interval."""
+    """One pulse: stable below one factor, overturning above; the probability is inside its interval."""
     answer = run(pulse, "--width", 0.24, "--height", 0.8, "--component", "NS", "--margin", "--perturb", 50, "--json")
     result = json.loads(answer.stdout)["results"][0]
     first = result["margin"]["windows"][0]
@@ -148,7 +148,7 @@ def test_rock_margin_states_first_overturning_factor(run):
 
 
 def test_rock_states_meaning_of_zero_share(run):
-    """None of 60 versions falls, and the line says what that is worth on real rocks, not 0.000 (N12)."""
+    """None of 60 samples overturns: the line states the meaning for real rocks, not 0.000 (N12)."""
     words = ("elcentro_1940_ns.csv", "--width", "40cm", "--height", "80cm", "--perturb", 60)
     output = " ".join(run(*words).stdout.split())
     assert (
@@ -160,7 +160,7 @@ def test_rock_states_meaning_of_zero_share(run):
 
 
 def test_rock_first_line_states_insufficient_friction(run):
-    """With --mu the verdict says whether rocking needs more, before any number; without it nothing was asked (DESIGN.md section 11)."""
+    """With --mu the verdict states whether rocking needs more friction; without it there is no statement (DESIGN.md section 11)."""
     words = ("synthetic_jma.csv", "--width", "8sun", "--height", "80cm", "--component", "NS")
     for mu, says in ((0.2, "0.2 < b/h = 0.303 the block slides instead of rocking"), (0.32, "with 0.32 the block slides while rocking")):
         text = " ".join(run(*words, "--mu", mu).stdout.split())
@@ -187,7 +187,7 @@ def test_rock_names_disagreeing_models(run):
 
 
 def test_rock_writes_table_figure_and_history(run, pulse, tmp_path):
-    """The table says the verdict in words; the files hold the figure and the history in SI."""
+    """The table has the verdict in words; the files have the figure and the history in SI."""
     answer = run(pulse, "--width", 0.24, "--height", 0.8, "--plot", "rock.png", "--csv", "rock.csv", "--si")
     assert answer.exit_code == 0, answer.output
     first, second, third, *_ = answer.stdout.splitlines()  # the probability first, the single run after it
@@ -245,7 +245,7 @@ def test_rock_reports_bad_input_in_one_sentence(run, pulse, words, says):
 
 
 def test_rock_accepts_and_reports_wide_block(run, pulse):
-    """A block wider than tall is solved, and its threshold above 1 g is said."""
+    """A block wider than tall is solved, and its threshold above 1 g is stated."""
     answer = run(pulse, "--width", 1.0, "--height", 0.5)
     assert answer.exit_code == 0
     assert "rocking threshold 2.00 g" in answer.stderr
@@ -285,7 +285,7 @@ def test_rock_animates_first_component(run, pulse, tmp_path):
 
 
 def test_rock_writes_no_animation_of_a_block_at_rest(tmp_path, monkeypatch):
-    """The answer is printed, and a warning says why there is no file."""
+    """The result is printed, and a warning explains the missing file."""
     monkeypatch.chdir(tmp_path)
     result = CliRunner().invoke(main, ["rock", "sine:20gal@1Hz,2s", "--width", "0.3", "--height", "0.6", "--animate", "film.gif"])
     assert result.exit_code == 0

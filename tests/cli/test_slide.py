@@ -29,7 +29,7 @@ def answer(*arguments):
 
 
 def test_slide_with_mu_alone_uses_sample():
-    """``seisblock slide --mu 0.2`` works as written, says which record it took, and fits 80 columns."""
+    """``seisblock slide --mu 0.2`` works as written, names its record, and fits 80 columns."""
     result = run("--mu", "0.2")
     assert result.exit_code == 0
     assert result.stdout.startswith("Record: synthetic_jma.csv (bundled, synthetic); none given.\n")
@@ -149,7 +149,7 @@ def test_slide_draws_every_figure(tmp_path, extra):
 
 
 def test_slide_csv_has_both_limits_of_each_event(tmp_path):
-    """--csv holds t, ground acceleration, relative motion and phase; velocity is zero wherever the phase says stick."""
+    """--csv holds t, ground acceleration, relative motion and phase; velocity is zero in stick."""
     target = tmp_path / "history.csv"
     assert run("--mu", "0.2", "--component", "NS", "--csv", target).exit_code == 0
     with target.open(newline="") as file:
@@ -208,7 +208,7 @@ def test_slide_rejects_components_of_unequal_length():
 
 
 def test_slide_study_reports_progress_to_the_end():
-    """A study tells how many of its runs are done, and ends with all of them."""
+    """A study reports the number of finished runs up to all of them."""
     collected = []
     motion = seisblock.motion_of(read("elcentro_1940_ns"), "NS")
     seisblock.studies.slide_study(
@@ -219,7 +219,7 @@ def test_slide_study_reports_progress_to_the_end():
 
 
 def test_slide_prints_outcome_first_or_record_name():
-    """One record: the verdict is the first line. Two: each begins with the line that says which it is."""
+    """With one record the verdict is the first line; with two each part begins with the record line."""
     first = run("elcentro_1940_ns", "--mu", "0.2", "--quiet").stdout.splitlines()
     assert first[0].startswith("NS: slides, maximum displacement 3.25 mm") and first[2].startswith("elcentro_1940_ns")
     two = run("elcentro_1940_ns", "synthetic_jma", "--mu", "0.2", "--component", "NS", "--quiet").stdout.splitlines()

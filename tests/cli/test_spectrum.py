@@ -1,4 +1,4 @@
-"""``seisblock spectrum`` solves a grid of blocks, and says where they overturn."""
+"""``seisblock spectrum`` solves a grid of blocks and reports which overturn."""
 
 import csv
 import json
@@ -28,7 +28,7 @@ def run(tmp_path, monkeypatch):
 
 
 def test_rocking_spectrum_equals_solve_rock(run):
-    """A matrix with a row per size and a column per slenderness, equal to what rock says of each block."""
+    """A matrix with a row per size and a column per slenderness, equal to the results of rock."""
     output = json.loads(run(*GRID, "--json").stdout)
     assert output["schema"] == "seisblock/spectrum/1"
     result = output["results"][0]
@@ -108,7 +108,7 @@ def test_sliding_spectrum_equals_solve_slide(run, tmp_path):
 
 
 def test_mode_map_equals_solve_respond(run, tmp_path):
-    """Each cell is what respond says of the same body; the file holds every cell; the figure is drawn, of shapes and of sizes."""
+    """Each cell equals the result of respond; the file holds every cell; figures over shapes and over sizes."""
     answer = run("--kind", "modes", "--mu", "0.3,0.9", "--height-over-width", "4,1", "--component", "NS", "--json", "--csv", "m.csv")
     entry = json.loads(answer.stdout)["results"][0]
     assert np.shape(entry["mode"]) == np.shape(entry["slip_path_m"]) == (2, 2)
@@ -142,7 +142,7 @@ def test_mode_map_uses_vertical_motion_if_present(run):
 
 
 def test_spectrum_reports_progress_per_chunk(monkeypatch):
-    """The bar hears of every chunk and ends at the number of runs."""
+    """Progress is reported for every chunk and ends at the number of runs."""
     monkeypatch.setattr(verdicts, "CHUNK_SIZE", 20_000)
     collected = []
     motion = Motion.from_arrays(3 * np.sin(np.arange(400) * 0.1), 0.02)

@@ -37,7 +37,7 @@ def pulse(tmp_path):
 
 
 def test_stack_without_record_uses_sample():
-    """Without RECORD the sample answers, and the first line says so; one run tells of all components."""
+    """Without RECORD the bundled sample is used, as the first line states; one run has all components."""
     result = run("--window", "24:30")
     assert result.exit_code == 0
     assert result.stdout.startswith("Record: synthetic_jma.csv (bundled, synthetic); none given.\n")
@@ -46,7 +46,7 @@ def test_stack_without_record_uses_sample():
 
 
 def test_stack_document_has_falls_tilt_and_slip(pulse):
-    """The JSON names what fell and when, and tells tilt and slip of every stone."""
+    """The JSON document has the fallen stones with times, and tilt and slip of every stone."""
     document = answer(pulse, "--stones", "wagata.toml")
     assert document["schema"] == "seisblock/stack/3"
     assert document["citations"] == [
@@ -100,7 +100,7 @@ def test_stack_runs_each_requested_component():
 
 
 def test_stack_runs_reports_share_per_stone(pulse):
-    """--runs tells in what share of versions each stone falls, with the keys of respond; with none nothing is told."""
+    """--runs gives the share of samples in which each stone falls, with the keys of respond; 0 gives none."""
     (result,) = answer(pulse, "--scale", "0.9", "--runs", "6", "--seed", "1", "--vary-amplitude", "0.3")["results"]
     chance = result["probability"]
     assert set(chance) == {"runs", "overturned", "moved", "interval", "moved_m", "stones", "versions", "seed", "left_out_count"}
@@ -130,7 +130,7 @@ def test_stack_default_samples_end_beyond_stone_seconds(monkeypatch):
 
 
 def test_stack_states_wear_and_rejects_it_with_grid(pulse):
-    """Insets of stones vary by a share of themselves; a grid of points knows no wear, and says so to who asks for it."""
+    """Insets of stones vary by a share of themselves; a grid of points has no wear and rejects the option."""
     group = pulse, "--window", "0:1.2", "--runs", "2"
     assert "edge wear ±10 %" in " ".join(run(*group, "--inset", "0.2").stdout.split())
     assert "not included): size ±5 %, friction" in " ".join(run(*group, "--vary-inset", "0").stdout.split())
@@ -179,7 +179,7 @@ def test_stack_reads_pile_file(pulse, tmp_path):
 
 
 def test_stack_study_scales_records(pulse, tmp_path):
-    """With RECORD the study also scales it to each amplitude, and says its equivalent frequency (fig. 10); the CSV holds both."""
+    """With RECORD the study also scales it to each amplitude and states its equivalent frequency (fig. 10); the CSV has both."""
     table = tmp_path / "study.csv"
     (result,) = answer(pulse, "--criterion", "--grid", "14", "--contact", "edges", "--without", "mizubachi", "--csv", table)["results"]
     (scaled,) = result["scaled_records"]

@@ -1,4 +1,4 @@
-"""``seisblock uplift`` tells which corner lifts, when and how far, and under which sines."""
+"""``seisblock uplift`` reports which corner uplifts, when and how far, and under which harmonic motion."""
 
 import csv
 import json
@@ -214,7 +214,7 @@ def test_uplift_without_sizes_uses_bundled_machine(run, record, tmp_path):
 
 
 def test_uplift_solves_record_without_vertical(run, tmp_path):
-    """Without a vertical component the vertical motion is zero, and the answer says so."""
+    """Without a vertical component the vertical motion is zero, with a warning."""
     motion = shaking(2.0, 0.01)
     rows = np.column_stack([motion.time, motion.transverse, motion.horizontal])
     np.savetxt(tmp_path / "flat.csv", rows, delimiter=",", header="time,NS (m/s2),EW (m/s2)", comments="", fmt="%.17g")

@@ -1,4 +1,4 @@
-"""Pulses that just overturn: what the linear equation says, what the exact one says, and the card that shows both."""
+"""Pulses at the overturning threshold: linear and exact equations, and the table with both."""
 
 import math
 

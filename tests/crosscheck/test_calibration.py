@@ -1,4 +1,4 @@
-"""Calibration of the overturning probability: stones drawn and solved by an independent planar rocker fall as often as was said."""
+"""Calibration of the overturning probability: stones solved by an independent planar model overturn at the predicted rate."""
 
 from itertools import pairwise
 
@@ -52,7 +52,7 @@ def fixed_step_rocker(acceleration, dt, width, height, share, factor):
 
 @pytest.mark.slow
 def test_said_probability_equals_share_that_falls():
-    """Nine hundred stones in five bins of the probability that was said of them: each bin falls as often, within 0.1."""
+    """Nine hundred stones in five bins of predicted probability: observed shares agree within 0.1."""
     rng = np.random.default_rng(38)
     message, fell = [], []
     for name, code in (("shafter_1989", "NS"), ("synthetic_jma.csv", "EW"), ("elcentro_1940_ns.csv", "NS")):

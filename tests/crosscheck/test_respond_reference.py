@@ -93,7 +93,7 @@ def test_initiation(b, h, mu, push):
 
 
 def test_painleve():
-    """A homogeneous rectangle meets the paradox above mu = 4/3, at a lean where kappa = tan^2 phi/(1 - tan^2 phi) = 1/3."""
+    """A homogeneous rectangle reaches the paradox above mu = 4/3, at the tilt with kappa = tan^2 phi/(1 - tan^2 phi) = 1/3."""
     phi = math.atan(0.5)
     body = rectangle(0.3, 0.3, 4 / 3)
     theta = math.atan2(0.3, 0.3) - phi

@@ -64,7 +64,7 @@ def test_mode_durations_are_times_between_events():
 
 
 def test_failure_names_its_row():
-    """A row that has to be given up is an error that says which."""
+    """A row that fails raises an error with its number."""
     with pytest.raises(SolverError, match="row 0"):
         integrate_many(FLIP, Motion.from_arrays(np.zeros(3), 0.01), [[0.0]], [0.0], 0, gains=[1.0, 0.0, 0.0])
 

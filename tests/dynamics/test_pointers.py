@@ -19,7 +19,7 @@ STILL = Motion.from_arrays(np.zeros(301), 0.01)
 
 @pytest.mark.skipif(not ENABLED, reason="nothing is compiled")
 def test_function_pointer_behaves_like_its_kernel():
-    """Called from Python it does what the kernel does, and says the signature that it was made for."""
+    """A function pointer called from Python equals the kernel and shows its signature."""
     created = function_pointer(BALL.series, SERIES)
     room = np.zeros((2, 4)), np.zeros((1, 4)), np.zeros((2, 4)), np.zeros((1, 4))
     for function, c, g in ((BALL.series, *room[:2]), (created, *room[2:])):

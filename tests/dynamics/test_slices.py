@@ -1,4 +1,4 @@
-"""The loop comes back to Python now and then; nothing else tells that it did."""
+"""The compiled loop returns to Python regularly, without an effect on the result."""
 
 import numpy as np
 import pytest

@@ -161,7 +161,7 @@ ELSEWHERE = {"cluster"}
 """Options whose strange values would be looked for in the network."""
 
 SLOW = {"validate", "report", "fit"}
-"""Commands of a second and more: the dice meet them seldom."""
+"""Commands that take a second or more, drawn rarely."""
 
 
 def write_files(folder: Path, knet: str) -> None:

@@ -1,4 +1,4 @@
-"""Whole files of every format, and what each says of itself: how many samples, how large, at what interval. The fuzz spoils them."""
+"""Complete files of every format, with number of samples, peak and interval, as input of the fuzz tests."""
 
 from __future__ import annotations
 
@@ -181,14 +181,14 @@ def _table(separator: str, header: str, form: str = "{:.3f}", unit: float = 1.0)
 
 
 def _clock_table(rows: Rows) -> bytes:
-    """Return a table whose times a clock tells, with its units in a line of their own."""
+    """Return a table with clock times and a line of units."""
     lines = zip(T, *rows, strict=True)
     body = "".join(f"2020-01-02T03:04:{5 + t:06.3f},{a:.3f},{b:.3f},{c:.3f}\n" for t, a, b, c in lines)
     return ("time,NS,EW,UD\n,gal,gal,gal\n" + body).encode()
 
 
 def _obspy(waveform: str, count: int = 1) -> Writer:
-    """Return what writes a file through obspy, so many components, counts of mm/s^2."""
+    """Return what writes a file through ObsPy, so many components, counts of mm/s^2."""
 
     def written(rows: Rows) -> bytes:
         stream = obspy.Stream()

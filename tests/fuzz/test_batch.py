@@ -75,7 +75,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def test_random_batch_gives_table_or_one_error(seeds, folder):
-    """Each record that was named stands in the table, answered or with its reason, unless a sentence says why there is none."""
+    """Each named record has a row with a result or a reason, unless a sentence explains its absence."""
     for solver in SOLVERS:  # kernels may have to be compiled first
         CliRunner().invoke(main, ["batch", "--bodies", "gravestone", "--solver", solver, "--out", f"{solver}.csv"])
     met = {"answered": 0, "failed": 0, "refused": 0}

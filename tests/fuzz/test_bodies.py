@@ -1,4 +1,4 @@
-"""Descriptions of bodies and cemeteries with anything in them: what is read, or one sentence."""
+"""Damaged descriptions of bodies and cemeteries are read, or rejected in one sentence."""
 
 from __future__ import annotations
 

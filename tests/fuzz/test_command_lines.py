@@ -1,4 +1,4 @@
-"""Command lines that nobody meant: an answer, or one sentence and an exit code; never a traceback, never a run that does not end."""
+"""Random command lines give a result, or one sentence and an exit code; no traceback, no endless run."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def in_time(command):
 
 
 def complaint(words, result):
-    """Return what is wrong with how a command ended, or nothing."""
+    """Return the fault in the way a command ended, empty without one."""
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         return f"raised {result.exception!r}"
     if result.exit_code not in CODES:

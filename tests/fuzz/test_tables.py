@@ -1,4 +1,4 @@
-"""Damaged lists, surveys, hazards, fragilities, outcomes and scans: what is read makes sense, or one sentence says why not."""
+"""Damaged lists, surveys, hazards, fragilities, outcomes and scans give sensible values, or one sentence with the reason."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def valid_scan(path):
 
 
 def valid_body_list(path):
-    """Return whether a list holds bodies told in numbers; what no solver takes, a height of 0, is refused by each in its row."""
+    """Return whether a list holds bodies given by numbers; values that no solver accepts, such as height 0, fail in their row."""
     return all(all_finite(value) for body in read_bodies(path) for value in body.parameters.values() if isinstance(value, float))
 
 

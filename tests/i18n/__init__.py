@@ -1,1 +1,1 @@
-"""Tests of the languages: texts, catalogues, what is shown in Japanese."""
+"""Tests of the languages: texts, catalogues, Japanese output."""

@@ -19,7 +19,7 @@ ENGLISH = re.compile(rf"{WORD}(?:[,;:.]? {WORD}){{2,}}")
 
 
 def english_words(text):
-    """Return what is English in a text: three words in a row that are neither names, units nor citations."""
+    """Return the English in a text: three words in a row that are neither names, units nor citations."""
     for name in NAMES:
         text = re.sub(name, "·", text)
     return [result.group() for result in ENGLISH.finditer(text)]

@@ -1,4 +1,4 @@
-"""Whatever is said can be told: the catalogues hold every text, nothing else, and a translation is filled in with the same values."""
+"""Catalogues hold every text and nothing else; translations have the same fields."""
 
 import ast
 import re
@@ -51,7 +51,7 @@ def test_percentages_have_one_form(every_text, entries):
 
 
 def test_every_message_is_translated(every_text, entries):
-    """Missing, empty and fuzzy are the same to a reader: ``python -m tests.catalogue`` adds what is new."""
+    """Missing, empty and fuzzy entries count alike: ``python -m tests.catalogue`` adds new ones."""
     missing = [
         f"{place}: {text}"
         for text, place in every_text.items()
@@ -76,7 +76,7 @@ def test_translations_keep_fields_and_formats(entries):
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_messages_are_literal_templates_with_values(path):
-    """No sentence is made by the language it is written in: what is said is a literal, and each of its fields has a value."""
+    """Messages are literals, not assembled sentences, and each field has a value."""
     for call, argument in message_calls(syntax_tree(path)):
         place = f"{path.relative_to(PACKAGE)}, line {call.lineno}"
         assert not is_glued(argument), f"{place}: {ast.unparse(argument)} cannot be translated"

@@ -208,12 +208,12 @@ HEADING = re.compile(r"サンプル、|^物体：(?!(?:転倒の可能性大|転
 """Lines that describe the record, its processing, the body (not the class of an object with its probability) or the cemetery."""
 
 QUOTING = {"cite", "samples"}
-"""Commands that quote: references, licences and origins are told as they are printed elsewhere."""
+"""Commands that quote references, licences and origins keep their original text."""
 
 
 @pytest.fixture(scope="module")
 def run_in_language(tmp_path_factory):
-    """Run command lines in a language, each once; click is told through compiled catalogues, as an installation has them."""
+    """Run command lines in a language, each once, with compiled catalogues for click as in an installation."""
     folder, output = tmp_path_factory.mktemp("locale"), tmp_path_factory.mktemp("written")
     (output / "empty").mkdir()
     shutil.copytree(i18n.LOCALE_DIR, folder, dirs_exist_ok=True)

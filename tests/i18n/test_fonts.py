@@ -79,7 +79,7 @@ def test_extra_ja_font_is_used_without_system_font(install_fonts, monkeypatch, t
 
 
 def test_figure_without_font_is_english_with_one_warning(tmp_path, monkeypatch):
-    """The figure is written all the same, and what is printed stays Japanese."""
+    """The figure is still written, and printed texts stay Japanese."""
     monkeypatch.setattr(fonts, "japanese_font", lambda: None)
     answer = CliRunner().invoke(main, ["jump", "--component", "EW", "--lang", "ja", "--plot", str(tmp_path / "jump.svg")])
     assert answer.exit_code == 0 and (tmp_path / "jump.svg").is_file()

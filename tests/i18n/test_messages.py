@@ -1,4 +1,4 @@
-"""A text is said once, in English, and told in the language of whoever reads it."""
+"""Messages are English templates, translated where they are shown."""
 
 import copy
 import json
@@ -92,7 +92,7 @@ def test_locale_option_precedes_environment(environment, option, expected, monke
     ],
 )
 def test_lang_option_is_read_before_parsing(line, expected):
-    """So that its errors are told in it; what click will refuse asks for nothing."""
+    """The language is set before errors; click's own errors need no setting."""
     assert requested_locale(line) == expected
 
 
@@ -106,7 +106,7 @@ def test_message_is_english_until_translated(japanese):
 
 
 def test_nested_messages_are_translated(japanese):
-    """Values keep their format; texts that were said are translated, those that were not stay; lists are listed."""
+    """Values keep their format; messages among them are translated, other texts are not; lists are joined."""
     inner = lazy_gettext("{name} falls", name=N_("stone"))
     assert gettext("{name}, after {time:.2f} s: {what}", name=("stone", gettext("stone")), time=1.234, what=inner) == (
         "1.23 秒後 stone、墓石：stoneは転倒"
@@ -120,7 +120,7 @@ def test_unknown_message_stays_english(japanese):
 
 
 def test_compiled_and_source_catalogues_agree(japanese):
-    """A tree without compiled catalogues speaks as an installation does; the newer of the two counts."""
+    """A tree without compiled catalogues uses the ``.po`` files; the newer of the two applies."""
     texts = ["{name} falls", "{name}, after {time:.2f} s: {what}", "stone", "not translated yet", "unknown", ""]
     items = [i18n._load_catalogue("ja")(text) for text in texts]
     with (japanese / "seisblock.po").open("rb") as source, (japanese / "seisblock.mo").open("wb") as target:
@@ -139,7 +139,7 @@ def test_catalogue_reader_equals_babel():
 
 
 def test_errors_are_translatable_and_picklable(japanese):
-    """The message is English for a traceback, told by the command line, and survives the way to another process."""
+    """The message is English in a traceback, translated by the command line, and survives pickling."""
     error = RecordNotFoundError("{name} falls", name="A")
     assert isinstance(error, FileNotFoundError) and str(error) == "A falls" and gettext(error.message) == "Aは転倒"
     assert gettext(pickle.loads(pickle.dumps(error)).message) == "Aは転倒"

@@ -47,7 +47,7 @@ def console_output(*parts, width=80):
 
 
 def test_console_breaks_japanese_between_characters():
-    """A sentence fills its lines, alone or with others, but for what is not broken: at most a number with its unit and what closes it."""
+    """A sentence fills its lines except for unbreakable parts, at most a number with its unit and closing brackets."""
     lines = console_output(styled_line(TEXT * 2), width=40).splitlines()
     longest = cell_len(" 14.0 cm）。")
     assert all(40 - longest < cell_len(result) <= 40 for result in lines[:-1]), lines

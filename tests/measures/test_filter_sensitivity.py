@@ -86,7 +86,7 @@ def test_overturn_rate_reports_filter_sensitivity(monkeypatch):
 
 
 def test_record_shorter_than_corner_period_warns():
-    """Five seconds cannot hold a corner period of twenty: what PGV then rests on is said."""
+    """A record of five seconds cannot hold a corner period of twenty: the warning states the basis of the PGV."""
     record = read("elcentro_1940_ns.csv")
     assert any("shorter than the corner period" in text for text in measure(crop(record, 1.0, 6.0)).warnings)
     assert not any("shorter than the corner period" in text for text in measure(record).warnings)

@@ -34,7 +34,7 @@ def test_ricker_constants_equal_closed_forms():
 
 @pytest.mark.parametrize("f0", [1.0, 2.0, 4.0])
 def test_equivalent_frequencies_of_ricker_wavelet(f0):
-    """1.16582, 1 and 1.11072 times f0; what is off is the record's 5 ms, the 0.05 Hz high-pass and the 0.2 Hz window."""
+    """Results are 1.16582, 1 and 1.11072 times f0 within the effect of 5 ms samples, the 0.05 Hz high-pass and the 0.2 Hz window."""
     result = frequencies(ricker(f0))
     assert result.pga_pgv == pytest.approx(RICKER_PGA_PGV * f0, rel=3e-3)
     assert result.fourier == pytest.approx(f0, rel=2e-3)

@@ -91,7 +91,7 @@ def test_jma_intensity_ignores_offset():
 
 
 def test_jma_intensity_requires_three_components():
-    """None, and a warning that says what is missing."""
+    """The intensity is None, with a warning that names the missing component."""
     single = Record((Component("NS", np.sin(np.arange(1000.0))),), 0.01)
     answer = measure(single)
     assert answer.jma_intensity is None

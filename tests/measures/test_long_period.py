@@ -69,7 +69,7 @@ def test_long_period_class_is_rotation_invariant():
 
 
 def test_long_period_class_ignores_offset():
-    """Nothing is left of it; of an offset alone the class is 0."""
+    """A constant offset has class 0."""
     assert long_period_motion(shaking(offset=0.3)).floor_velocity_m_s == pytest.approx(long_period_motion(shaking()).floor_velocity_m_s)
     still = long_period_motion(shaking(size=0.0, offset=0.3))
     assert still.long_period_class == "0" and still.floor_velocity_m_s == 0.0

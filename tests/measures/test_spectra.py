@@ -1,4 +1,4 @@
-"""Spectra: oscillators with known answers, and a window that is what it says."""
+"""Spectra of oscillators with known solutions, and spectral windows."""
 
 import math
 
@@ -75,7 +75,7 @@ def test_spectrum_is_independent_of_interpolated_points(period):
 
 @pytest.mark.parametrize(("periods", "damping"), [([0.0], 0.05), ([-1.0], 0.05), ([np.nan], 0.05), ([1.0], 1.0), ([1.0], -0.1)])
 def test_spectrum_rejects_invalid_period_and_damping(periods, damping):
-    """Periods are positive, damping lies in [0, 1)."""
+    """Periods must be positive and damping ratios in [0, 1)."""
     with pytest.raises(ParameterError):
         response_spectrum(np.ones(10), 0.01, periods, damping=damping)
 

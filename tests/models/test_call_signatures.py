@@ -1,4 +1,4 @@
-"""Every solver is called alike: the body, then the motion; what is given wrongly is refused with the sentence that helps."""
+"""Every solver takes the body, then the motion; wrong arguments are rejected with a remedy."""
 
 import numpy as np
 import pytest
@@ -53,7 +53,7 @@ def test_solvers_reject_motion_before_body(solve, body):
 
 
 def test_argument_order_error_names_both_arguments():
-    """The message says what stands where."""
+    """The message names the arguments in order."""
     with pytest.raises(KindError, match="expected the body first, then the motion, found Motion before Block"):
         solve_rock(MOTION, BLOCK)
     with pytest.raises(KindError, match="found Record before TwoLayerBlock"):

@@ -150,7 +150,7 @@ def test_slip_after_landing_stops_at_kinetic_friction_distance():
 
 
 def test_outcome_sums_all_chains_and_reports_final_state():
-    """The first chain of this record barely moves the block, later ones do: the sum and the end are told, not the first (N4)."""
+    """The first chain barely moves the block, later ones do: the outcome has the sum and the end, not the first chain (N4)."""
     motion = motion_of(read("synthetic_jma.csv"), "NS")
     all_cases = solve_jump(SHORT, motion, contact=CONTACT)
     first = solve_jump(SHORT, motion, contact=CONTACT, first=True)

@@ -46,7 +46,7 @@ def test_friction_demand_equals_second_differences_of_centre():
 
 
 def test_contact_loss_is_reported_at_exact_time():
-    """At rest N vanishes where the ground falls faster than g, at the exact time; it is said."""
+    """At rest N vanishes where the ground falls faster than g, at the exact time, which is reported."""
     down = np.linspace(0.0, -2.0 * G, 41)
     response = solve_rock(Block(0.4, 1.0), Motion.from_arrays(np.zeros(41), 0.1, vertical=down), vertical=True)
     assert response.outcome.contact_lost
@@ -111,7 +111,7 @@ def test_zero_restitution_is_limit_of_small_restitution():
 
 
 def test_very_wide_block_stops_at_the_impact():
-    """With B/H above sqrt(2) angular momentum leaves nothing to turn on with: the block lies still at the first impact."""
+    """With B/H above sqrt(2) no angular momentum remains: the block is at rest after the first impact."""
     block = Block(1.5, 1.0)
     assert block.restitutions == (0.0, 0.0)
     response = solve_rock(block, Motion.from_arrays(np.zeros(300), 0.01), initial=(0.1, 0.0))
@@ -188,7 +188,7 @@ def test_first_sample_above_threshold_starts_rocking_at_once():
 
 @pytest.mark.slow
 def test_lossless_impacts_without_end_raise_solver_error(monkeypatch):
-    """A restitution of 1 after a hop of microseconds never comes to rest: said in one sentence, not looped."""
+    """A restitution of 1 after a hop of microseconds never comes to rest: one error message, no endless loop."""
     monkeypatch.setattr(integration, "_MAX_EVENTS", 2**18)
     threshold = G * 0.2
     a = np.array([0.0, threshold * (1 + 3e-3), 0.0, *np.zeros(400)])
@@ -235,6 +235,6 @@ def test_solve_rock_rejects_invalid_options(options):
 
 @pytest.mark.parametrize(("alpha", "p"), [(0.0, 1.0), (1.6, 1.0), (0.3, -1.0), (math.nan, 1.0)])
 def test_solve_rock_rejects_invalid_slenderness(alpha, p):
-    """The slenderness lies between 0 and pi/2, p is positive."""
+    """The slenderness must be between 0 and pi/2 and p positive."""
     with pytest.raises(BodyError):
         from_slenderness(alpha, p)

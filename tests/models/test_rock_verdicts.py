@@ -29,7 +29,7 @@ OPTIONS = [{}, {"vertical": 0.7}, {"linear": True, "restitution": 0.9}, {"gravit
 
 @pytest.mark.parametrize("options", OPTIONS, ids=str)
 def test_rock_many_rows_equal_single_runs(options):
-    """Several blocks under one gain, one block under several, and all of both: bit for bit what solve_rock says of each."""
+    """Several blocks under one gain, one block under several, and both: bit by bit the results of solve_rock."""
     rockers = [rock_params(block, MOTION, RockOptions(**options)) for block in BLOCKS]
     single = [solve_rock(block, MOTION, **options).outcome for block in BLOCKS]
     assert {outcome.overturned for outcome in single} == {False, True}

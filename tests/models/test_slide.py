@@ -117,7 +117,7 @@ def test_still_ground_causes_no_slip():
 
 
 def test_slope_steeper_than_kinetic_friction_slides_without_end():
-    """Once in motion on an endless slope with mu_k < tan th nothing stops the object, and the outcome says so."""
+    """On an endless slope with mu_k < tan th a sliding object does not stop, which the outcome states."""
     motion = Motion.from_arrays(np.concatenate([np.full(10, -5.0), np.zeros(40)]), 0.02)
     response = solve_slide(sliding_base(0.3, kappa=0.5, slope_deg=12.0), motion)
     assert response.outcome.final_slip_m is None

@@ -41,7 +41,7 @@ def test_uplift_many_rows_equal_solve_uplift():
 
 
 def test_uplift_many_lifts_above_uplift_scale_only():
-    """A block lifts above the scale that is told, and not below; a factor of two is exact."""
+    """A block uplifts above the reported scale factor and not below; a factor of two is exact."""
     (body,), motion = springs(1), shaking(6.0, 0.01)
     scale = solve_uplift(body, motion).outcome.uplift_scale
     factors = np.array([0.999, 1.001]) * scale
@@ -52,7 +52,7 @@ def test_uplift_many_lifts_above_uplift_scale_only():
 
 
 def layered_blocks(count, seed=5):
-    """Return two-layer blocks, narrow and wide, and what is under them, smooth and rough."""
+    """Return narrow and wide two-layer blocks with smooth and rough contacts."""
     rng = np.random.default_rng(seed)
     sizes = rng.uniform([0.4, 0.6, 0.8, 300.0], [2.4, 1.1, 1.9, 1500.0], (count, 4))
     blocks = [TwoLayerBlock(w, 2.3, h, below, mass, 160.0) for w, h, below, mass in sizes]

@@ -213,14 +213,14 @@ def test_halving_the_step_changes_rocking_by_less_than_1_percent():
     ],
 )
 def test_solve_stack_rejects_unstable_or_tiny_step(step, message):
-    """Beyond the stability of the stiffest contact, or so fine that the run would not end, it is an error that says what would do."""
+    """A step beyond the stability limit, or too fine to end, raises an error that names a suitable one."""
     with pytest.raises(ParameterError, match=message):
         solve_stack(block(), sine(1.0, 1.0, 0.1), step=step)
 
 
 @pytest.mark.parametrize("points", [1, 1000])
 def test_slicing_a_spring_run_changes_no_bit(points, monkeypatch):
-    """Slices of one step, or of a few, end with the same state, rows and books as one slice; progress tells how far it is."""
+    """Slices of one step, or of a few, give the same state, rows and ledger as one slice; progress is reported."""
     motion, body = sine(6.0, 2.0, 1.0), load_pile("wagata")
     full = solve_stack(body, motion)
     monkeypatch.setattr("seisblock.models.stack.simulation.POINTS_PER_SLICE", points)

@@ -1,4 +1,4 @@
-"""Two boxes that are apart are so along an axis; where they meet, their points lie on both."""
+"""Separated boxes have a separating axis; contact points are on both boxes."""
 
 import math
 
@@ -79,7 +79,7 @@ def hulls_intersect(first, second):
 
 
 def distance_outside(planes, y):
-    """Return how far a point lies beyond the outermost of some faces."""
+    """Return the distance of a point beyond the outermost of some faces."""
     return (planes[:, :3] @ y - planes[:, 3]).max()
 
 
@@ -90,7 +90,7 @@ def face_planes(pile, box):
 
 @pytest.mark.parametrize("share", SHARES)
 def test_box_planes_enclose_all_corners(share):
-    """Every corner lies on three faces, where bevels end on four, and inside all others: the planes enclose the hull of the corners."""
+    """Every corner is on three faces, four at the ends of bevels, and inside all others: the planes enclose the hull of the corners."""
     pile = pair(share)
     assert pile.counts[:3].tolist() == ([8, 8, 8] if share == 0.0 else [12, 16, 8])
     for box in range(2):
@@ -195,7 +195,7 @@ def test_edges_of_least_overlap_cross(share):
 
 @pytest.mark.parametrize(("yaw", "count"), [(0.0, 4), (math.radians(45.0), 8)])
 def test_flat_boxes_have_contacts_at_corners_of_face_overlap(yaw, count):
-    """Four where it lies along the other, eight where it is turned and each cuts the other's corners."""
+    """Four contact points for aligned boxes, eight for rotated ones that cut each other's corners."""
     square = Pile("square", (PileStone("low", 0.4, 0.4, 0.2), PileStone("high", 0.4, 0.4, 0.2, on="low")))
     pile = pile_arrays(square, None, 2)
     rel = relative_pose(Rotation.from_rotvec([0.0, 0.0, yaw]), [0.0, 0.0, 0.2])

@@ -198,7 +198,7 @@ def test_round_stones_keep_rest_momentum_and_energy(name):
 
 
 def test_bundled_column_stands_at_rest_and_reports_fall_direction():
-    """The bundled column of drums and a capital stands still, and falls under strong shaking to a side that is said."""
+    """The bundled column of drums and a capital stands at rest, and falls to a stated side under strong shaking."""
     column = load_pile("column")
     assert all(stone.is_round for stone in column.stones[:-1])
     assert not solve_stack(column, still_ground(1.0)).outcome.overturned_any

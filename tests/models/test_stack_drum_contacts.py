@@ -1,4 +1,4 @@
-"""Round stones that lie meet the sides of each other."""
+"""Contacts between the sides of lying cylinders."""
 
 import math
 
@@ -23,7 +23,7 @@ SIDE_BY_SIDE = 2.0 * RADIUS * math.sqrt(0.5)
 
 
 def roll_against(along, rotated, restitution):
-    """Let a short drum slide against a long one, both lying along x: how far along its centre lies, and by what angle it is turned."""
+    """Slide a short drum against a long one, both along x; return the position of its centre and its rotation."""
     stones = (
         PileStone("low", 2.0 * RADIUS, 2.0 * RADIUS, LONG, shape="round"),
         PileStone("high", 2.0 * RADIUS, 2.0 * RADIUS, SHORT, on="low", shape="round"),

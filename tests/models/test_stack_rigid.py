@@ -95,7 +95,7 @@ def test_rigid_stone_overturns_at_respond_threshold(hertz, limit):
 
 @pytest.mark.parametrize("arguments", [None, 0.7, 0.95])
 def test_impact_has_housner_or_given_restitution(arguments):
-    """Without a restitution Housner's ratio is left of the turning; with one, that, whether more or less than Housner's."""
+    """Without a restitution Housner's ratio of the rotation remains; with one that value, above or below Housner's."""
     alpha = math.atan(0.25)
     response = solve_stack(block(4.0, mu=5.0), still_ground(1.2), tilts={"block": 0.6 * alpha}, restitution=arguments, step=FINE)
     expected = 1.0 - 1.5 * math.sin(alpha) ** 2 if arguments is None else arguments
@@ -106,7 +106,7 @@ def test_impact_has_housner_or_given_restitution(arguments):
 
 @pytest.mark.parametrize(("points", "contact"), [(5, None), (5, PileContact()), (5, PileContact(stiffness=1e9))])
 def test_contact_grid_uses_reported_base_width_and_restitution(points, contact):
-    """The stone falls from beyond the lean that the narrower base says, and an impact leaves of it what the answer says."""
+    """The stone falls beyond the overturning angle of the narrower base, and an impact leaves the stated ratio."""
     stone = block(3.0).stones[0]
     result = compute_effective_base(stone, points, contact, None, G)
     assert (result.stone, result.width_ratio) == ("block", 0.8)
@@ -140,7 +140,7 @@ def test_rigid_block_on_slope_slides_with_kinetic_friction(elsewhere):
 
 @pytest.mark.parametrize("name", ["wagata", "lantern"])
 def test_colliding_rigid_stones_lose_energy_and_conserve_momentum(name):
-    """Through rocking, sliding, tumbling and coming to rest; the impulse is the momentum; who fell lies flat."""
+    """Momentum equals the impulse through rocking, sliding, tumbling and rest; fallen stones rest on a face."""
     rng = np.random.default_rng(3)
     shaking = np.cumsum(rng.normal(size=(3, 600)) * np.array([[6.0], [6.0], [3.0]]) * np.hanning(600), axis=1) * 0.2
     outcome = solve_stack(load_pile(name), Motion(shaking, 0.01)).outcome
@@ -246,7 +246,7 @@ def test_stone_falling_off_wide_base_creates_no_energy(component, factor):
 
 
 def test_created_energy_falls_back_to_finer_steps_then_springs(monkeypatch):
-    """Should a run create energy, no verdict is lost, and the warning says who gave it; rigid stones alone refuse at last."""
+    """A run that creates energy is solved again with springs, with a warning; rigid contact alone raises an error."""
     refused = []
 
     def judged(pile, end, **further):

@@ -121,7 +121,7 @@ def test_shaken_drums_below_static_friction_do_not_slide():
 
 
 def test_unconverged_steps_of_extreme_mass_ratio_are_reported():
-    """A stone bears one three thousand times as heavy: it creeps and is told; a thousand times, less in fine steps; thirty: it rests."""
+    """A stone under one 3000 times as heavy creeps, with a warning; at 1000 times it creeps less in fine steps; at 30 it rests."""
     push, slips = 0.1 * G, {}
     for ratio, step in ((30.0, None), (1000.0, None), (1000.0, 1e-3), (3000.0, None)):
         stones = (PileStone("a", 0.6, 0.6, 0.6), PileStone("b", 0.5, 0.5, 0.7, on="a", density=ratio * 2650.0))

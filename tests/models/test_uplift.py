@@ -170,7 +170,7 @@ def test_outcome_agrees_with_channels_and_phases():
 
 @pytest.mark.parametrize("seed", range(20))
 def test_contact_changes_are_separated_by_more_than_round_off(seed):
-    """No corner parts and meets again within round-off of one instant, however close to a sample the change is."""
+    """No corner opens and closes again within round-off of one instant, however close to a sample."""
     response = solve_uplift(SLENDER, shaking(5.0, 0.01, seed=seed))
     for corner in "1234":
         items = [event for event in response.events if event.name[7] == corner]
@@ -242,7 +242,7 @@ def test_landing_corner_force_starts_at_dashpot_force():
 
 
 def test_large_tilt_warns_beyond_model_validity():
-    """Beyond a tenth of the slenderness the outcome says that the model does not hold, and the answer points to rock (N16)."""
+    """Beyond a tenth of the slenderness the outcome states that the model is invalid and refers to rock (N16)."""
     response = solve_uplift(SLENDER, shaking(6.0, 0.01, peaks=(9.0, 9.0, 3.0)))
     assert any("seisblock rock" in message for message in response.warnings)
     assert response.outcome.within_model is False
@@ -257,7 +257,7 @@ def test_large_tilt_warns_beyond_model_validity():
 
 
 def test_motion_sensitive_to_round_off_is_reported():
-    """Two thousand contact changes on stiff springs amplify round-off to the size of the answer, which then says so."""
+    """Two thousand contact changes on stiff springs amplify round-off to the size of the result, which then states this."""
     stiff = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=60.0, beta=0.707)
     result = solve_uplift(stiff, shaking(60.0, 0.01))
     (warned,) = (message for message in result.warnings if "round-off" in message)
@@ -276,7 +276,7 @@ def test_quiet_end_of_record_does_not_slow_integration(frequency):
 
 
 def test_record_without_vertical_component_is_solved_and_reported():
-    """Without a vertical component the vertical motion is zero, and the answer says so."""
+    """Without a vertical component the vertical motion is zero, with a warning."""
     motion = shaking(2.0, 0.01)
     record = Record((Component("NS", motion.transverse), Component("EW", motion.horizontal)), 0.01)
     response = solve_uplift(SLENDER, motion_of(record, "EW"))

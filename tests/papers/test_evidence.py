@@ -120,7 +120,7 @@ def test_readme_table_equals_case_counts():
 
 
 def test_importing_cases_computes_nothing():
-    """Importing the evidence solves nothing, studies nothing and reads no file; closed forms may give what is expected."""
+    """Importing the evidence solves nothing and reads no file; closed forms may give expected values."""
     script = (
         "import sys, importlib\n"
         "from seisblock.validation import PAPERS\n"

@@ -15,7 +15,7 @@ def test_case(case):
 
 
 def test_edge_wear_of_one_tenth_is_least_biased():
-    """Edges worn by 0.1 B meet the survey with no bias, sharp ones let too few stones fall, 0.15 B too many."""
+    """Edges worn by 0.1 B agree with the survey without bias; sharp ones overturn too few stones, 0.15 B too many."""
     assert min((abs(bias(model.key)), model.key) for model in MODELS)[1] == "worn"
     assert bias("sharp") < -0.1 and bias("half-sine") < -0.1 and bias("worn-more") > 0.15
     assert max(rms("eq-9"), rms("worn")) < min(rms("sharp"), rms("half-sine"), rms("worn-more"))

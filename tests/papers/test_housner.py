@@ -117,7 +117,7 @@ def threshold(pulse, low, high, e=0.9):
 
 @pytest.mark.parametrize(("w", "x"), [(1.0, 1.3224), (2.0, 1.8007), (5.0, 3.2891)])
 def test_half_sine(w, x):
-    """The closed form is the threshold of the simulation, and not what Housner's (6) says."""
+    """The closed form equals the threshold of the simulation, unlike Housner's (6)."""
     assert half_sine_ratio(w) == pytest.approx(x, abs=5e-5)
     assert threshold(lambda a: sine(a, w, 1), 1.0, 6.0) == pytest.approx(half_sine_ratio(w), rel=1e-5)
     assert abs(half_sine_ratio(w) / math.hypot(1, w) - 1) > 0.06

@@ -127,7 +127,7 @@ def test_table_1_has_printed_and_both_computed_rows():
 
 
 def test_tsutsui_curves_follow_closed_forms():
-    """Velocities of fig. 3 are sqrt(b lambda g); no line of fig. 2 lies below lambda g; a body of the user replaces the three."""
+    """Velocities of fig. 3 are sqrt(b lambda g); no line of fig. 2 is below lambda g; a body of the user replaces the three."""
     paper = find_paper("tsutsui")
     rows = find_item(paper, "fig3").compute(Inputs()).rows
     np.testing.assert_allclose([row[2] for row in rows], [math.sqrt(b * 9.8 / 4) for b in (1.0, 2.5, 5.0)], rtol=1e-12)

@@ -31,7 +31,7 @@ def impact_factor(stones, half):
 
 @pytest.mark.parametrize(("reinforced", "left"), [(False, 0.87), (True, 0.73)])
 def test_dowelled_pair_has_lower_restitution_than_sao(reinforced, left):
-    """At H/B 2.6 on the outermost of 5 x 5 points, at 0.8 of the half width: as the page on stack says."""
+    """At H/B 2.6 on the outermost of 5 x 5 points, at 0.8 of the half width, as on the page on stack."""
     pile = with_top(load_pile("wagata", reinforced=reinforced).without("mizubachi"), 2.6)
     stones = pile.stones[-2:] if reinforced else pile.stones[-1:]
     expected = impact_factor(stones, 0.4 * stones[0].width)

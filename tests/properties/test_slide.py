@@ -116,7 +116,7 @@ def test_energy_lost_is_friction_work(seed, mu, kappa):
 @QUICK
 @given(seeds, mus, kappas, st.integers(1, 100))
 def test_slip_is_independent_of_ground_velocity(seed, mu, kappa, sample):
-    """Starting the record at any instant of rest, whatever the ground's velocity is then, gives what is left of the slip."""
+    """A start at any instant of rest, with any ground velocity, gives the remaining slip."""
     motion = noise(seed)
     full = solve_slide(sliding_base(mu, kappa=kappa), motion)
     names = np.array([phase.name for phase in full.phases])[full.phase_of_row()]

@@ -1,1 +1,1 @@
-"""Readers: what the file says is what the solver sees."""
+"""Readers: samples equal the values in the files."""

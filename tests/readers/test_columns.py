@@ -1,4 +1,4 @@
-"""No column of a table vanishes: each is read as what it says it is, left out by name, or refused with what would be understood."""
+"""Every column of a table is read, omitted by name, or rejected with the accepted forms."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def test_numbered_component_is_not_an_azimuth(table):
 
 
 def test_column_t_with_acceleration_unit_is_transverse(table):
-    """``L,T,V (gal)``: T is transverse, and the one unit that is written counts for all, which is told."""
+    """``L,T,V (gal)``: T is transverse, and the single unit applies to all columns, with a note."""
     record = read(table("L,T,V (gal)", NORTH, EAST, UP), dt=0.01)
     assert codes(record) == [("L", None), ("T", None), ("UD", None)]
     np.testing.assert_allclose(record.component("T").acceleration, EAST / 100, rtol=1e-15)
@@ -115,7 +115,7 @@ def test_column_t_with_acceleration_unit_is_transverse(table):
 
 
 def test_column_t_beside_time_is_transverse(table):
-    """``R`` and ``T`` are radial and transverse where another column is the time; a table of velocities says what it holds."""
+    """``R`` and ``T`` are radial and transverse beside a time column; a table of velocities is rejected by its quantity."""
     record = read(table("time,R,T,Z"), units="m/s2")
     assert codes(record) == [("R", None), ("T", None), ("UD", None)]
     np.testing.assert_array_equal(record.component("T").acceleration, EAST)
@@ -124,7 +124,7 @@ def test_column_t_beside_time_is_transverse(table):
 
 
 def test_down_column_is_inverted_and_reported(table):
-    """A column that is positive down is UD with the sign turned, which is told."""
+    """A column that is positive down becomes UD with the sign reversed, with a note."""
     record = read(table("time,NS (gal),EW (gal),DOWN (gal)"))
     np.testing.assert_allclose(record.component("UD").acceleration, -UP / 100, rtol=1e-15)
     assert "positive down" in record.history[0]

@@ -1,4 +1,4 @@
-"""A file that contradicts itself is doubted or refused, in every format that says anything of itself (FINDINGS R7)."""
+"""Files that contradict their header are flagged or rejected in every format with redundant data (FINDINGS R7)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ COUNTS = [int(x * 1577) + 900 for x in ROWS[0]]
 
 
 def doubts(tmp_path, data, **options):
-    """Return the kinds of doubt about a file, and all that is said of them."""
+    """Return the kinds and texts of the flags of a file."""
     path = tmp_path / "spoilt"
     path.write_bytes(data)
     flags = read(path, **options).doubts
@@ -49,7 +49,7 @@ def test_undefined_sac_header_is_not_checked(tmp_path):
 
 
 def test_miniseed_integration_constant_is_checked(tmp_path):
-    """Steim's own check, of which obspy only warns: a difference in the middle of the block moved all later samples."""
+    """Steim's own check, of which ObsPy only warns: a difference in the middle of the block moved all later samples."""
     data = bytearray(FORMATS["mseed"].data)
     data[300] ^= 1
     kinds, text = doubts(tmp_path, bytes(data), **MM)
@@ -58,13 +58,13 @@ def test_miniseed_integration_constant_is_checked(tmp_path):
 
 @pytest.mark.parametrize("change", [lambda rows: rows[::-1], lambda rows: [*rows[:-1], rows[-2]]])
 def test_tspair_times_are_checked(change, tmp_path):
-    """Lines in another order and a line that stands twice: obspy looks at the first time alone."""
+    """Lines in another order and a line that stands twice: ObsPy looks at the first time alone."""
     head, *rows = FORMATS["tspair"].data.decode().rstrip("\n").split("\n")
     assert doubts(tmp_path, "\n".join([head, *change(rows)]).encode(), **MM)[0] >= {"clock"}
 
 
 def test_slist_count_is_checked(tmp_path):
-    """SLIST: a number more than the header says."""
+    """SLIST: one number more than the header states."""
     kinds, text = doubts(tmp_path, FORMATS["slist"].data + b"1\n", **MM)
     assert "count" in kinds and "601" in text
 
@@ -93,7 +93,7 @@ LAYOUTS = {
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_lost_decimal_point_is_flagged(layout, tmp_path):
-    """One line of 100 without points: told with its line, though its samples may be no spikes."""
+    """A line without decimal points among 100 is flagged by its number."""
     rows = _rows(100)
     assert "point" not in doubts(tmp_path, LAYOUTS[layout](rows))[0]
     kinds, text = doubts(tmp_path, LAYOUTS[layout](_lost(rows)))

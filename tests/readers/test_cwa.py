@@ -1,4 +1,4 @@
-"""Text files of Taiwan's CWA: the header says unit, sequence, rate, start and extremes, and all of it is used."""
+"""Text files of Taiwan's CWA: unit, order, rate, start and extremes of the header are all used."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def test_cwa_unknown_entries_are_rejected_with_line(file, old, new, says):
 
 
 def test_options_contradicting_cwa_header_are_rejected(file):
-    """As with every format that says its unit and its interval."""
+    """Unit and interval of the header are used, as in every format that states them."""
     path = file(FULL)
     assert read(path, units="gal", dt=0.01, format="CWB").codes == ("NS", "EW", "UD")
     with pytest.raises(UnitError, match="header unit gal contradicts"):

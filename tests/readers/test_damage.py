@@ -53,7 +53,7 @@ def test_random_bytes_give_record_or_input_error(tmp_path, damaged):
 
 
 def _try(directory, damaged):
-    """Read bytes; check that what is raised, if anything, is ours and names the file."""
+    """Read bytes; check that any exception belongs to the package and names the file."""
     path = directory / "damaged"
     path.write_bytes(damaged)
     try:

@@ -1,4 +1,4 @@
-"""JMA CSV: every variant of the header, exact numbers, the known defect told."""
+"""JMA CSV: every variant of the header, exact numbers, and the flag of the known defect."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_jma_header_of_2000_is_read_in_any_encoding(tmp_path, encoding):
 
 
 def test_gal_convert_to_m_s2_exactly(tmp_path):
-    """306.21 gal is the double nearest to 3.0621 m/s^2, as if the file had said so."""
+    """306.21 gal is the double nearest to 3.0621 m/s^2, as if written in m/s^2."""
     record = read(write(tmp_path, JMA_HEADER + JMA_BODY))
     np.testing.assert_array_equal(record.component("NS").acceleration, [-0.00018, 0.00306, 3.0621])
     np.testing.assert_array_equal(record.component("EW").acceleration, [0.0, -0.12345, 0.005])
@@ -95,7 +95,7 @@ def test_damaged_jma_file_is_rejected_with_line(tmp_path, text, error, says):
 
 
 def test_overwritten_jma_samples_are_flagged_and_kept(tmp_path):
-    """Half a second overwritten by what comes 2 s later makes two isolated jumps, which are told; smooth records are not suspected."""
+    """Half a second overwritten by samples 2 s later gives two flagged steps; smooth records are not flagged."""
     lines = sample_path("synthetic_jma.csv").read_bytes().decode("cp932").split("\r\n")
     assert read("synthetic_jma.csv").doubts == ()
     lines[7 + 3000 : 7 + 3050] = lines[7 + 3200 : 7 + 3250]
@@ -122,6 +122,6 @@ def test_overwritten_jma_samples_are_flagged_and_kept(tmp_path):
     ids=["whole", "no line end", "cut in the last number", "seven lines short", "line missing", "half"],
 )
 def test_truncated_jma_file_is_flagged(tmp_path, spoil, kinds):
-    """JMA ends every line and publishes whole seconds: what does not is told."""
+    """JMA ends every line and publishes whole seconds: deviations are flagged."""
     full = sample_path("synthetic_jma.csv").read_bytes().decode("cp932")
     assert [doubt.kind for doubt in read(write(tmp_path, spoil(full))).doubts if doubt.kind in ("cut", "count")] == kinds

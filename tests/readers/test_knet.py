@@ -33,7 +33,7 @@ def test_knet_samples_reproduce_header_maximum(source):
 
 
 def test_knet_start_time_and_offset_of_obspy_file():
-    """The first sample is 15 s before the record time, JST - 9 h; the offset of the counts is kept and told."""
+    """The first sample is 15 s before the record time, JST - 9 h; the offset of the counts is kept and flagged."""
     record = read(OBSPY_FILE)
     assert record.start == datetime(1996, 8, 10, 18, 12, 24, tzinfo=UTC)
     assert (record.station, record.codes, record.dt, record.samples) == ("AKT013", ("EW",), 0.01, 5900)
@@ -162,7 +162,7 @@ def test_knet_components_of_unequal_length_or_start_are_rejected(tmp_path):
 
 
 def test_knet_csv_keeps_offset_and_start_time(tmp_path):
-    """NIED's CSV: the time of the first row is the start, 15 s are not taken off again, the offset is kept and told."""
+    """NIED's CSV: the time of the first row is the start, without 15 s; the offset is kept and flagged."""
     path = tmp_path / "download.csv"
     path.write_text(KNET_CSV)
     record = read(path)
@@ -176,7 +176,7 @@ def test_knet_csv_keeps_offset_and_start_time(tmp_path):
 
 
 def test_knet_csv_duration_is_checked(tmp_path):
-    """The header says 60 s, three samples follow: told; a duration that is no number as well."""
+    """A header of 60 s with three samples is flagged, as is a duration that is no number."""
     path = tmp_path / "download.csv"
     for text, says in ((KNET_CSV, "states 6000 samples, file contains 3"), (KNET_CSV.replace("#60", "#6O"), "'6O' is not a number")):
         path.write_text(text)

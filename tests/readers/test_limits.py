@@ -76,7 +76,7 @@ def test_sparse_tar_member_is_skipped(tmp_path):
 
 
 def test_declared_member_size_is_checked_first(tmp_path, set_limits):
-    """A member that says it is too large is not unpacked; the message names the number, the limit and the variable that lifts it."""
+    """A member that declares an excessive size is not unpacked; the message names size, limit and variable."""
     set_limits(mib=2)
     path = tmp_path / "large.zip"
     path.write_bytes(zip_of_zeros(5 * 2**20))
@@ -170,7 +170,7 @@ def test_zip_with_missing_byte_gives_record_or_input_error(tmp_path):
 
 
 def test_measure_reads_standard_input():
-    """``seisblock measure -`` reads what is piped in, whatever its format."""
+    """``seisblock measure -`` reads any format from stdin."""
     data = (JMA_HEADER + JMA_BODY).encode("cp932")
     result = CliRunner().invoke(main, ["measure", "-", "--json", "--quiet"], input=data)
     assert result.exit_code == 0, result.output

@@ -123,7 +123,7 @@ def same(result, expected):
 
 
 def test_columns_with_different_units_are_converted(tmp_path):
-    """And the record's history says so."""
+    """The history of the record states it."""
     path = tmp_path / "record.csv"
     path.write_text("NS (gal),EW (m/s2)\n" + "100,2\n" * 5, encoding="utf-8")
     record = read(path, dt=0.01)

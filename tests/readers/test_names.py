@@ -1,4 +1,4 @@
-"""Files, bundles and names: what stands for what, and what is refused."""
+"""Files, bundles and names: file sets, and rejected combinations."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_zip_with_folders_gives_its_record(tmp_path):
     ids=["no record", "plots only", "gzip cut short", "zip cut short"],
 )
 def test_bundle_without_record_or_damaged_is_rejected(tmp_path, data, says):
-    """The error lists the contents of a bundle without a record, or says that it is damaged."""
+    """The error of a bundle without a record lists its contents or states the damage."""
     path = tmp_path / "bundle"
     path.write_bytes(data)
     with pytest.raises(RecordFormatError) as caught:
@@ -131,7 +131,7 @@ class Bomb:
 
 
 def test_pickles_are_never_loaded(tmp_path):
-    """No pickle: obspy would unpickle a file to see what it is; a record is data, so here it stays closed."""
+    """No pickle: ObsPy would unpickle a file to see what it is; a record is data, so here it stays closed."""
     path = tmp_path / "evil.csv"
     path.write_bytes(pickle.dumps(Bomb()))
     for options in ({}, {"units": "gal"}, {"format": "PICKLE", "units": "gal"}, {"format": "OBSPY:PICKLE"}):
@@ -163,7 +163,7 @@ def test_miniseed_requires_unit(tmp_path):
 
 @pytest.mark.parametrize("waveform", ["SLIST", "TSPAIR"])
 def test_slist_and_tspair_counts_are_checked(tmp_path, waveform):
-    """SLIST and TSPAIR state how many samples follow: another number is told, which obspy does not."""
+    """SLIST and TSPAIR state the number of samples: another number is flagged, unlike in ObsPy."""
     trace = obspy.Trace((np.sin(np.arange(300) * 0.2) * 1000).astype(np.int32), header={"station": "ABC", "channel": "HNZ", "delta": 0.01})
     path = tmp_path / "a.txt"
     obspy.Stream([trace]).write(str(path), format=waveform)

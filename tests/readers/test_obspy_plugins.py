@@ -1,4 +1,4 @@
-"""obspy reads JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet and CWA through the plugins, and they claim nothing else."""
+"""ObsPy reads JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet and CWA through the plugins, and they claim nothing else."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ CLAIMS = {claims for _, claims, _ in OURS.values()}
 
 @pytest.mark.parametrize("kind", OURS)
 def test_files_are_detected_by_their_plugin_only(tmp_path, kind):
-    """Of our plugins one claims it, as a path and as a stream; none of obspy's formats before ours does."""
+    """Of our plugins one claims it, as a path and as a stream; none of ObsPy's formats before ours does."""
     data, claims, _ = OURS[kind]
     path = tmp_path / "AA06EA01.csv"
     path.write_bytes(data)
@@ -52,7 +52,7 @@ def test_files_are_detected_by_their_plugin_only(tmp_path, kind):
 
 
 def test_plugins_detect_no_other_files(tmp_path):
-    """None of obspy's own example files, nor a K-NET ASCII file, nor a note, is claimed."""
+    """None of ObsPy's own example files, nor a K-NET ASCII file, nor a note, is claimed."""
     root = Path(obspy.__file__).parent / "io"
     (tmp_path / "note.txt").write_text("SITE CODE is what the header of a JMA file begins with")
     (tmp_path / "a.NS").write_text(knet())
@@ -103,7 +103,7 @@ def test_entry_points_can_be_imported():
 def test_obspy_read_uses_installed_plugins():
     """In an environment with seisblock installed, obspy.read takes a JMA CSV by itself."""
     if "JMACSV" not in ENTRY_POINTS["waveform"]:
-        pytest.skip("seisblock is not installed here, so obspy cannot know its entry points")
+        pytest.skip("seisblock is not installed here, so ObsPy cannot know its entry points")
     stream = obspy.read(str(sample_path("synthetic_jma.csv")))
     assert [t.stats.channel for t in stream] == ["NS", "EW", "UD"]
     assert stream[0].stats._format == "JMACSV"

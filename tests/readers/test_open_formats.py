@@ -1,4 +1,4 @@
-"""CSMIP, COSMOS, SMC, ESM, GeoNet, CWA: read to the header's own peak; siblings, azimuths, places are kept; what is no record is named."""
+"""CSMIP, COSMOS, SMC, ESM, GeoNet, CWA: peaks of the headers, siblings, azimuths, places; rejection of other contents."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_samples_reproduce_header_peak(kind, tmp_path):
     ],
 )
 def test_wrong_header_peak_is_flagged(kind, peak, tmp_path):
-    """A digit of the header's peak changed is told, with what the samples reach."""
+    """A changed digit of the header's peak is flagged with the peak of the samples."""
     path = tmp_path / "record"
     data = WRITERS[kind](ROWS)
     assert peak in data, kind
@@ -107,7 +107,7 @@ def test_azimuths_are_kept(tmp_path):
 
 
 def test_down_component_is_inverted(tmp_path):
-    """Samples that are positive down are turned, and the history says so."""
+    """Samples that are positive down are reversed, with a history entry."""
     for text in (
         layouts.smc(ROWS[0], vertical=180),
         layouts.cosmos(ROWS[0], azimuth=401),
@@ -127,7 +127,7 @@ def test_volume_2_gives_accelerations_only(tmp_path):
 
 
 def test_single_channel_file_finds_other_components(tmp_path):
-    """One letter of the name tells the component; another station, or another time, under such a name is not taken."""
+    """One letter of the name denotes the component; files of another station or time are not joined."""
     for letter, row in zip("NEZ", ROWS, strict=True):
         write_text_file(tmp_path, layouts.esm(row, stream=f"HN{letter}"), f"SY.SYN1..HN{letter}.D.20200102.030400.C.ACC.ASC")
     second = layouts.esm(ROWS[0], stream="HN1").replace("STATION_CODE: SYN1", "STATION_CODE: SYN2")
@@ -197,13 +197,13 @@ UNEVEN = V1_HEAD + "".join(f"{0.01 * i:7.3f}{x:7.3f}" * 1 + ("\n" if i % 5 == 4 
     ],
 )  # fmt: skip
 def test_files_without_even_accelerations_are_rejected(text, says, tmp_path):
-    """One sentence says what the file holds, and which file to take."""
+    """One sentence names the content of the file and the file to use instead."""
     with pytest.raises(RecordFormatError, match=says):
         read(write_text_file(tmp_path, text))
 
 
 def test_non_acceleration_units_are_rejected(tmp_path):
-    """Volts in COSMOS, and CSMIP's samples in a unit that nobody knows."""
+    """Volts in COSMOS, and samples of CSMIP in an unknown unit, are rejected."""
     with pytest.raises(UnitError, match="unknown acceleration unit"):
         read(write_text_file(tmp_path, layouts.cosmos(ROWS[0], unit=51)))
     with pytest.raises(UnitError, match="'volts'"):
@@ -238,7 +238,7 @@ def test_adjacent_fixed_width_numbers_are_separated(tmp_path):
 
 @pytest.mark.parametrize(("name", "start"), [("hanmer_springs_2016", "2016-11-13T11:02:20"), ("shafter_1989", "1989-10-18T00:04:00")])
 def test_bundled_recordings_reproduce_header_peak(name, start):
-    """GeoNet's Hanmer Springs and the Shafter record of the USGS: no doubt about their headers, the peaks that the manifest tells."""
+    """Hanmer Springs of GeoNet and Shafter of the USGS: no flag, and the peaks of the manifest."""
     record = read(name)
     text = next(sample.pga_gal for sample in list_samples() if sample.name.startswith(name))
     assert {code: 100.0 * float(np.abs(record.component(code).acceleration).max()) for code in record.codes} == pytest.approx(
@@ -250,7 +250,7 @@ def test_bundled_recordings_reproduce_header_peak(name, start):
 
 
 def test_read_cosmos_takes_an_integer_header_one_blank_short(tmp_path):
-    """Whole numbers are told apart without columns; a line with one number too few is refused."""
+    """Integers are split without columns; a line with one number too few is rejected."""
     full = layouts.cosmos(ROWS[0])
     lines = full.splitlines()
     line = lines[next(index for index, line in enumerate(lines) if "Integer-header" in line) + 5]

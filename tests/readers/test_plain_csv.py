@@ -1,4 +1,4 @@
-"""Plain tables: names, units, separators and times as people write them; numbers as the file says."""
+"""Plain tables: names, units, separators and times in common notations; numbers exactly as in the file."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def test_unit_line_and_unnamed_time_column_are_accepted(table, head):
 
 @pytest.mark.parametrize("name", ["", "index", "No", "No.", "番号"])
 def test_index_column_is_ignored_and_reported(table, name):
-    """The index that pandas writes, with or without a name, and a column of running numbers: told, not taken for the time."""
+    """The index column of pandas and a column of row numbers are noted and not taken for the time."""
     record = read(table(f"{name},NS (gal),UD (gal)\n" + "".join(f"{i},{i % 7},{i % 5}\n" for i in range(60))), dt=0.01)
     assert record.codes == ("NS", "UD")
     assert record.history == (f"column '{name or 'index'}' ignored: line number",)
@@ -115,7 +115,7 @@ def test_index_column_is_ignored_and_reported(table, name):
     ],
 )
 def test_clock_times_give_interval_and_start(table, form, start, clock):
-    """Dates and times of the day give interval and start, past midnight, too; without a zone they are UTC, which is told."""
+    """Dates and times give interval and start, past midnight, too; without a zone they are UTC, with a note."""
     seconds = [86399.75 + 0.005 * i for i in range(100)]
     cells = [f"{int(s // 3600) % 24:02d}:{int(s // 60) % 60:02d}:{s % 60:06.3f}" for s in seconds]
     days = [
@@ -159,7 +159,7 @@ def test_euc_jp_is_read(table):
 
 
 def test_even_first_column_without_heading_is_time(table):
-    """Two columns of numbers: the first climbs evenly, so it is the time, and the history says so; one column needs dt."""
+    """Of two columns of numbers the evenly increasing one is the time, with a history entry; one column needs dt."""
     record = read(table("0.00 0.1\n0.02 0.2\n0.04 -0.1\n"), units="g")
     assert record.codes == ("ACC",)
     assert record.dt == 0.02
@@ -202,7 +202,7 @@ def test_gal_with_three_decimals_convert_exactly(tmp_path_factory, thousandths):
 
 @pytest.mark.parametrize("dt", [0.01, 0.02, 0.005, 1 / 128, 1 / 300, 0.03])
 def test_interval_is_rounded_to_printed_digits(table, dt):
-    """Times written with six decimals give the interval meant, 0.02 and not 0.020000000000000004."""
+    """Times with six decimals give the interval 0.02, not 0.020000000000000004."""
     text = "time,NS (gal)\n" + "".join(f"{i * dt:.6f},1\n" for i in range(6000))
     assert read(table(text)).dt == dt
 
@@ -224,7 +224,7 @@ def test_uneven_time_is_rejected_beyond_rounding(table):
 
 @pytest.mark.parametrize(("dt", "printed"), [(0.01, "{:.0f}"), (0.01, "{:.1f}"), (0.005, "{:.2f}")])
 def test_too_coarse_times_are_rejected_by_cause(table, dt, printed):
-    """Of 30 lines most repeat the time before: the column's trouble is said, not a missing line."""
+    """Most of 30 lines repeat the time before: the error names the column, not a missing line."""
     text = "time,NS (gal)\n" + "".join(f"{printed.format(i * dt)},{i % 7}.5\n" for i in range(30))
     with pytest.raises(
         RecordFormatError, match=r"too few digits in the time column: \d+ of 30 times repeat the previous line .* remove the column"
@@ -302,7 +302,7 @@ def test_truncated_last_line_is_flagged(table):
 
 
 def test_missing_interval_is_reported_before_reading(tmp_path):
-    """A table of a day has no minute to lose: what its header lacks is said at once, whatever its last line is."""
+    """A day-long table fails at its header at once, whatever its last line."""
     path = tmp_path / "day.csv"
     path.write_text("NS (gal),EW (gal)\n1,2\n3,4\n5,x\n")
     with pytest.raises(ParameterError, match="no time column"):
@@ -319,7 +319,7 @@ def test_huge_number_is_rejected_without_numpy_warning(table):
 
 @pytest.mark.parametrize("zone", ["JST", "日本時間"])
 def test_time_zone_in_heading_is_used(table, zone):
-    """``time (JST)`` over times without a zone: the start is nine hours earlier in UTC, and told by that clock; seconds stay seconds."""
+    """``time (JST)`` over times without a zone: the start is nine hours earlier in UTC; seconds stay seconds."""
     rows = "".join(f"2024-01-01 00:00:10.{i:02d},{i},{-i}\n" for i in range(5))
     record = read(table(f"時刻({zone}),NS (gal),EW (gal)\n{rows}"))
     assert record.start.isoformat() == "2023-12-31T15:00:10+00:00"

@@ -117,7 +117,7 @@ LINES_DAMAGED = {
     "the last line lost": _lines(list.pop),
 }
 SILENT = {("one column", "a line lost"), ("one column", "a line twice"), ("one column", "the last line lost")}
-"""A column of bare numbers that ends with a whole line says of itself nothing that a reader could hold against it."""
+"""A column of bare numbers with a complete last line has no flag."""
 
 BARE = {
     ("comma", "the last line lost"),
@@ -142,7 +142,7 @@ def test_line_defects_are_flagged_in_every_text_format(kind, damage, tmp_path):
 @pytest.mark.parametrize("kind", ["mseed", "sac", "tar", "tar.gz", "zip"])
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9, 0.99])
 def test_truncated_binary_file_is_flagged(kind, share, tmp_path):
-    """A download that stopped; zeros behind the last member of a tar are nobody's loss."""
+    """A truncated download is flagged; zeros after the last member of a tar are not."""
     data = WRITERS[kind](ROWS).rstrip(b"\0" if kind == "tar" else b"")
     assert kinds_found(data[: int(share * len(data))], kind, tmp_path) - {"directions"}
 

@@ -83,7 +83,7 @@ def test_samples_equal_script_output():
 
 
 def test_local_file_precedes_sample_of_same_name(tmp_path: Path, monkeypatch):
-    """In a directory that holds a file of a sample's name, the file is meant."""
+    """A file in the directory takes precedence over a bundled sample of the same name."""
     monkeypatch.chdir(tmp_path)
     Path("synthetic_jma.csv").write_text("time,NS (gal)\n0,1\n0.01,2\n0.02,3\n")
     assert read("synthetic_jma.csv").codes == ("NS",)
@@ -95,6 +95,6 @@ def test_strict_accepts_every_bundled_record(sample):
 
 
 def test_archive_of_recordings_without_station_names_its_files():
-    """Twelve recordings of one component are no record of twelve components: the message tells what to give."""
+    """Twelve recordings of one component are no record of twelve components: the message names the remedy."""
     with pytest.raises(RecordError, match=r"12 recordings of component EW .* \(pulse_01.csv, .*pulse_12.csv\): give each file separately"):
         read("pulses.zip")

@@ -182,7 +182,7 @@ def test_damaged_files_are_rejected_or_flagged(layout, damage, tmp_path):
 
 
 def test_archive_with_several_volumes(tmp_path):
-    """A download of CESMD: spectra are skipped, volume 2 is preferred to volume 1, and said."""
+    """A CESMD download: spectra are skipped and volume 2 is preferred to volume 1, with a note."""
     path = tmp_path / "station.zip"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("A.V3", "RESPONSE AND FOURIER AMPLITUDE SPECTRA\nUNCORRECTED ACCELEROGRAM DATA\n")

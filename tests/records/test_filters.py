@@ -96,7 +96,7 @@ def test_zero_phase_highpass_equals_scipy():
 
 @pytest.mark.parametrize(("ours", "zerophase"), [(highpass_samples, True), (causal_highpass_samples, False)])
 def test_highpass_filters_equal_obspy(ours, zerophase):
-    """On a record at rest at both ends obspy's highpass of four corners gives the same samples."""
+    """On a record at rest at both ends ObsPy's highpass of four corners gives the same samples."""
     from obspy.signal.filter import highpass
 
     wave = shaking(20000)

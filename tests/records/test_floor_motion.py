@@ -74,7 +74,7 @@ def test_floor_motion_at_resonance_has_closed_form(damping):
 
 
 def test_peak_floor_motion_equals_spectral_acceleration():
-    """With no height: what the house's own spectrum says of the same period and damping, between samples less than a thousandth more."""
+    """Without a height the floor motion equals the response spectrum at its period and damping, within a thousandth."""
     for period, damping in ((0.6, 0.05), (1.5, 0.02)):
         floor = floor_motion(SHAKING, Storey(period, damping))
         for c in SHAKING.horizontals:
@@ -178,7 +178,7 @@ def test_floor_option_exists_beside_highpass():
 
 
 def test_command_line_reports_floor_motion():
-    """The history of the document and what is said beside it name it; the numbers are those of the library."""
+    """The history of the document and the first lines name the floor; numbers equal those of the library."""
     result = CliRunner().invoke(main, ["measure", "elcentro_1940_ns.csv", "--floor", "T=0.6,zeta=0.03,height=0.8", "--json"])
     output = json.loads(result.stdout)
     floor = Preparation(floor=Storey(0.6, 0.03, 0.8)).apply(seisblock.read("elcentro_1940_ns.csv"))

@@ -57,7 +57,7 @@ def test_crop_accepts_open_ends():
 
 @pytest.mark.parametrize(("start", "end"), [(-1, 5), (5, 21), (5, 5), (6, 5), (1.001, 1.004), (np.nan, 3)])
 def test_crop_rejects_invalid_window(start, end):
-    """A window outside, empty or shorter than two samples is an error that says so."""
+    """A window that is outside, empty or shorter than two samples raises an error that states this."""
     with pytest.raises(RecordError, match="window"):
         crop(RECORD, start, end)
 

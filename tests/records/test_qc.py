@@ -34,7 +34,7 @@ def doubts_of(*rows, codes=("NS", "EW", "UD"), dt=DT, azimuths=(None, None, None
 
 @pytest.mark.parametrize("name", ["synthetic_jma.csv", "elcentro_1940_ns.csv"])
 def test_bundled_records_have_no_flag(name):
-    """Nothing is said against the bundled records; a K-NET record has the offset of its counts, until that is removed."""
+    """Bundled records have no flag; a K-NET record has the offset of its counts until it is removed."""
     assert read(name).doubts == ()
     assert [d.kind for d in read("synthetic_knet.NS").doubts if d.kind != "offset"] == []
     assert demean(read("synthetic_knet.NS")).doubts == ()
@@ -47,7 +47,7 @@ def test_real_records_have_no_flag(parts):
 
 
 def test_offset_is_flagged_with_remedy():
-    """A mean of more than a tenth of the peak is told, with the remedy; demean and high-pass settle it, a scale does not."""
+    """A mean above a tenth of the peak is flagged with its remedy; demean and high-pass clear the flag, a scale does not."""
     assert doubts_of(SHAKING) == []
     assert doubts_of(SHAKING + 0.05 * np.abs(SHAKING).max()) == []
     record = run_qc(Record([Component("NS", SHAKING + 3.0)], DT))
@@ -72,7 +72,7 @@ def test_clipped_peaks_are_flagged():
 
 @pytest.mark.parametrize("fill", [0.0, "last"])
 def test_constant_values_during_shaking_are_flagged(fill):
-    """A fifth of a second filled with zeros, or with the last value, is told; rest before and after a motion is not."""
+    """A fifth of a second of zeros or of the last value is flagged; rest before and after a motion is not."""
     gap = SHAKING.copy()
     gap[2510:2530] = gap[2509] if fill == "last" else fill
     assert "held" in doubts_of(gap)
@@ -82,7 +82,7 @@ def test_constant_values_during_shaking_are_flagged(fill):
 @pytest.mark.parametrize("period", [0.2, 0.37, 0.5, 1.0, 2.0])
 @pytest.mark.parametrize("cycles", [0.5, 1.0, 1.5])
 def test_rest_after_pulse_is_not_flagged(period, cycles):
-    """A sine by a formula, and the zeros after it, hold nothing in the midst of shaking, wherever zero lies between two samples."""
+    """An analytic sine followed by zeros has no held values, wherever zero falls between two samples."""
     t = DT * np.arange(800)
     for begin in (0.5, 0.503, 0.5077):
         inside = (t >= begin) & (t - begin < cycles * period)
@@ -109,7 +109,7 @@ def test_lone_spike_is_flagged_at_its_place(place, size):
 
 
 def test_noise_and_triangles_have_no_spike():
-    """White noise, and straight lines between uneven picks, are shaking: nothing is said."""
+    """White noise, and straight lines between uneven points, are not flagged."""
     rng = np.random.default_rng(7)
     assert [x.size for x in find_spikes_and_jumps(rng.standard_normal(200_000))] == [0, 0]
     picks = np.cumsum(rng.integers(4, 12, 3000))
@@ -209,7 +209,7 @@ def test_flags_appear_in_every_output(offset, command, monkeypatch):
 
 
 def test_strict_rejects_flagged_record(offset):
-    """``--strict`` makes an error of a doubt, unless what is doubtful was remedied."""
+    """``--strict`` turns a flag into an error unless it was remedied."""
     refused = CliRunner().invoke(main, ["measure", str(offset), "--strict"])
     assert refused.exit_code == 3
     assert "quality flags raised, and flagged records are excluded: NS: mean" in refused.stderr
@@ -218,7 +218,7 @@ def test_strict_rejects_flagged_record(offset):
 
 @pytest.mark.slow
 def test_report_begins_with_flags(offset, tmp_path):
-    """The page begins with what is doubtful."""
+    """The page begins with the quality flags."""
     page = tmp_path / "page.html"
     result = CliRunner().invoke(main, ["report", str(offset), "--body", "30cmx60cm", "--component", "NS", "-o", str(page)])
     assert result.exit_code == 0, result.output

@@ -1,4 +1,4 @@
-"""Synthetic records are what they are said to be: the spectrum, the peaks and the duration of an earthquake of that size, that far away."""
+"""Synthetic records have the spectrum, peaks and duration of an earthquake of their magnitude and distance."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ class TestCommand:
         assert any("Boore" in text for text in document["citations"]) and not any("Boore" in text for text in read["citations"])
 
     def test_written_knet_files_round_trip(self, run, tmp_path):
-        """Three to a record, to the last bit, by our reader without a doubt and by obspy; the study of the folder is that of the suite."""
+        """Three to a record, to the last bit, by our reader without a doubt and by ObsPy; the study of the folder is that of the suite."""
         completed = run("--suite", "synthetic:M6.5:R15:4", "--suite-out", "made", "--suite-format", "knet", "--seed", 3, "--json")
         assert completed.exit_code == 0, completed.stderr
         files = sorted((tmp_path / "made").iterdir())
@@ -210,7 +210,7 @@ class TestCommand:
             assert np.abs(back.component(c.code).acceleration - c.acceleration).max() <= quantum * 0.5001
 
     def test_output_states_that_records_are_synthetic(self, run, monkeypatch):
-        """Without RECORD it says which records it takes, and that they are synthetic."""
+        """Without RECORD the first line names the records in use and that they are synthetic."""
         monkeypatch.setattr("seisblock.cli.run_fragility.DEFAULT_SUITE", "synthetic:M7:R20:3")
         result = run("--json")
         assert result.exit_code == 0 and "using synthetic:M7:R20:3" in result.stderr and "synthetic records of one source" in result.stderr

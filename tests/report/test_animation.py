@@ -1,4 +1,4 @@
-"""Animations are whole files of the kind their name says, and show the block where the solver put it."""
+"""Animations are complete files of the type of their suffix and show the block at the solved positions."""
 
 import subprocess
 import sys
@@ -86,7 +86,7 @@ def test_mp4_uses_bundled_ffmpeg(tmp_path, monkeypatch):
 
 
 def test_mp4_without_ffmpeg_raises_with_remedy(tmp_path, monkeypatch):
-    """It says what is missing and what works instead, and leaves no file."""
+    """The message names the missing part and an alternative, and no file is left."""
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr(atomic, "find_spec", lambda name: None)
     with pytest.raises(OutputError, match="ffmpeg not found"):
@@ -127,7 +127,7 @@ def test_five_seconds_of_rocking_give_100_different_frames(tmp_path, response):
 
 
 def test_long_response_plays_faster_and_states_speed():
-    """An hour is shown in at most 1200 pictures, and the speed is said."""
+    """An hour has at most 1200 frames, and the speed is stated."""
     times, speed = frame_times(0.0, 3600.0)
     assert len(times) <= MAX_FRAMES
     assert speed == 64
@@ -146,7 +146,7 @@ def test_rocking_block_pivots_at_corner_in_contact():
 
 
 def test_overturning_after_record_is_animated_to_rest():
-    """A block that overturns only after the record lies down in the picture, too."""
+    """A block that overturns after the record also falls in the animation."""
     pulse = 4.0 * np.sin(np.pi * np.arange(61) / 60)
     short = solve_rock(Block(0.24, 0.8), Motion.from_arrays(1.4 * pulse, 0.01))
     assert short.outcome.overturned

@@ -162,7 +162,7 @@ def test_animation_page_runs_in_browser(jump_film, tmp_path, width):
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
 def test_axis_numbers_of_page_are_not_clipped(jump_film, tmp_path):
-    """Numbers end left of their strip and begin right of the page's edge, however many digits they have."""
+    """Numbers end left of their strip and begin inside the page, with any number of digits."""
     tiny = replace(jump_film, strips=(Strip("x (m)", (Line(jump_film.time, np.linspace(0.0, -0.000602, jump_film.time.size)),)),))
     path = tmp_path / "film.html"
     observed = """<script>

@@ -25,7 +25,7 @@ def test_cemetery_figure_has_stones_curves_and_shaking_point(compared, panels):
 
 @pytest.mark.parametrize("criterion", ["furukawa", "simulate"])
 def test_shaking_point_lies_within_axes(criterion):
-    """However strong the shaking and whatever is drawn beside it, its point lies within the panel."""
+    """The point of the record is inside the panel for any strength of shaking."""
     method, shaking = AssessmentMethod(criterion), Shaking(30.0, 2.0)
     cemetery = assess_cemetery(AOYAMA, shaking, method)
     low, high = overturn_rate_figure(AOYAMA, [(None, [cemetery])], ()).axes[1].get_xlim()

@@ -1,4 +1,4 @@
-"""One way to name a direction: whatever shows a response says +EW or -EW, or an azimuth, and never +x of what has a name."""
+"""Directions are named +EW, -EW or by azimuth in every output, never +x where the direction has a name."""
 
 import re
 
@@ -30,7 +30,7 @@ FILMS = {
 }  # fmt: skip
 
 NAMELESS = re.compile(r"(?<![\w(（,=+-])[+-]x(?! = )|forward|backward|\+alpha|-alpha")
-"""A side of a body that says no direction of the record; ``+x = NS``, and the corners ``(+x,-y)`` it explains, are none."""
+"""Sides of the body are no directions: ``+x = NS``, and the corners ``(+x,-y)`` that it explains."""
 
 
 @pytest.mark.parametrize("lang", ["en", "ja"])

@@ -50,7 +50,7 @@ def test_length_unit_is_mm_below_one_cm(lengths, unit):
 
 
 def test_format_length_uses_decimals_of_unit():
-    """Each unit has its decimals, a tape's in words; nothing has no sign, and what is not known is a dash."""
+    """Each unit has its decimals; zero has no sign, and an unknown value is a dash."""
     assert [format_length(item) for item in (0.21534, 0.0047, -1e-9, 0.0)] == ["21.5 cm", "4.70 mm", "0.00 mm", "0.0 cm"]
     unit = length_unit([0.2], gal=True)
     assert [length_cell(item, unit) for item in (0.21534, -1e-9, None)] == ["21.53", "0.00", "-"]
@@ -73,7 +73,7 @@ def units_in(texts):
 
 
 def test_slide_figure_of_small_slip_uses_mm():
-    """The unit is that of what is drawn: a hundredth of what the body slid."""
+    """Plotted values have the unit of the axis: a hundredth of the slip in cm."""
     solution = response("slide")
     scaled = [
         replace(channel, values=0.01 * channel.values) if channel.name == "displacement" else channel for channel in solution.channels

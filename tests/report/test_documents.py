@@ -1,4 +1,4 @@
-"""JSON documents: each is what its schema says, every number names its unit, and no key changes unless the version does."""
+"""JSON documents satisfy their schema, every number names its unit, and keys change only with the version."""
 
 import json
 import re
@@ -203,7 +203,7 @@ def test_schema_command_prints_schema_and_list():
 
 
 def test_encode_handles_numpy_paths_messages_and_nan():
-    """Texts that remember their template, paths, and numpy's numbers and arrays; what is not a number is null; anything else is refused."""
+    """Messages, paths and numpy values are encoded; NaN is null; any other type raises."""
     values = {
         "text": lazy_gettext("{name} falls", name="A"),
         "path": Path("a/b"),

@@ -94,7 +94,7 @@ def test_frames_draw_every_point_of_the_curve(model):
 
 @pytest.mark.parametrize("model", FILMS)
 def test_pages_draw_every_point_of_the_curve(model):
-    """F1: so do the curves of a page; each point of the response in view lies on the line, to a 300th of the strip's height."""
+    """F1: each point of the response in view is on the curve of the page, within a 300th of the height of the strip."""
     solution = response(model)
     data = data_of(animation_html(film(model), AnimationOptions()))
     first, last = data["first"], data["last"]
@@ -212,7 +212,7 @@ def test_cursor_is_drawn_in_first_and_last_frame(model):
 @pytest.mark.parametrize("gal", [True, False])
 @pytest.mark.parametrize("model", FILMS)
 def test_scale_bar_length_equals_its_label(model, gal):
-    """As in the page: a round length, drawn as long as its text says, in each picture, within the scene."""
+    """The scale bar has a round length, drawn true to scale in each frame, inside the scene."""
     animation = film(model, 3, gal=gal)
     stage = build_figure(animation, gal=gal)
     stage.fig.canvas.draw()
@@ -241,7 +241,7 @@ def test_legend_names_every_shaded_band_once(model):
 
 @pytest.mark.parametrize("model", ["respond", "slide", "jump"])
 def test_thinned_path_keeps_its_extremes(model, monkeypatch):
-    """F1: however many points a path has, what is left of them reaches as far to all sides."""
+    """F1: a thinned path keeps its extent on all sides, however many points it has."""
     animation = film(model, 40)
     (path, *_) = animation.scene.trails
     inside = (path.time >= animation.time[0]) & (path.time <= animation.time[-1])
@@ -255,7 +255,7 @@ def test_thinned_path_keeps_its_extremes(model, monkeypatch):
 
 
 def test_long_animation_is_limited_to_maximum_frames():
-    """It plays faster and says so."""
+    """A fast animation states its speed."""
     times, speed = frame_times(0.0, 300.0)
     assert len(times) <= MAX_FRAMES and speed == 8.0
     animation = FILMS["slide"](response("slide"), np.asarray(times))
@@ -287,7 +287,7 @@ def test_stone_corners_equal_response_channels():
 
 @pytest.mark.parametrize("model", ["stack", "uplift"])
 def test_ground_stays_within_view_box(model):
-    """However far it moves, the patch of ground lies within the box that is shown."""
+    """The patch of ground stays inside the frame, however far it moves."""
     scene = film(model, 100).scene
     left, right, bottom, _ = scene.extent()
     for index in range(100):
@@ -349,7 +349,7 @@ def test_animation_ends_seconds_after_last_fall():
 
 
 def test_uplifted_corner_is_marked():
-    """Uplift: the mark of each corner tells whether its spring is let go of; the block stands on its corners' heights, magnified."""
+    """Uplift: the mark of each corner shows whether its spring is open; the block stands on the magnified heights of its corners."""
     result, output = response("uplift"), film("uplift", 400)
     factor = uplift.magnification(result)
     for i, spring in enumerate(output.scene.springs):
@@ -374,7 +374,7 @@ def uplift_magnification():
 
 
 def test_small_motion_is_magnified_by_round_factor():
-    """1, 2 or 5 times a power of ten, such that lean and rise just stay within what is drawn; the page says by how much."""
+    """The magnification is 1, 2 or 5 times a power of ten, keeps tilt and rise in the frame, and is stated on the page."""
     factor, result = uplift_magnification(), response("uplift")
     digits = factor / 10.0 ** math.floor(math.log10(factor) + 1e-9)
     assert min(abs(digits - step) for step in (1.0, 2.0, 5.0)) < 1e-9
@@ -387,7 +387,7 @@ def test_small_motion_is_magnified_by_round_factor():
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
 @pytest.mark.parametrize("model", ["stack", "uplift"])
 def test_3d_animation_page_runs_in_browser(model, tmp_path):
-    """The script runs: the clock stands where the address says, scene and curves are drawn, and nothing runs off the page."""
+    """The script runs: clock at the time of the address, scene and curves drawn, nothing outside the page."""
     probe = """<script>
     const inked = id => { const { width, height } = byId(id), pen = byId(id).getContext("2d");
       return pen.getImageData(0, 0, width, height).data.some((v, i) => i % 4 < 3 && v > 0); };
@@ -403,13 +403,13 @@ def test_3d_animation_page_runs_in_browser(model, tmp_path):
 
 
 def worn_block_that_falls():
-    """Return what becomes of a block worn by a sixth of its width, in the models of which it lies down."""
+    """Return the response of a block with edges worn by a sixth of its width, in the models in which it overturns."""
     block = Block(0.24, 0.9, inset=0.04)
     return solve_rock(block, motion("NS", 1.6)), solve_respond(block, motion("NS", 1.6), mu=0.7)
 
 
 def test_worn_block_comes_to_rest_on_ground():
-    """Nothing of it is ever below, nor does it float: it leaves the edge it turned about, and lies on its bevel, then on its side."""
+    """The block never penetrates the ground nor floats: it turns about its edge, rests on its bevel, then on its side."""
     for result in worn_block_that_falls():
         assert result.outcome.overturned
         (body,) = FILMS[result.model](result, result.time).scene.bodies

@@ -25,7 +25,7 @@ from tests.lengths import all_but_slow
 from tests.report.long_record import EVERY, OF_THE_RECORD, drawing_functions
 
 COLUMN, PAGE = 0.085, 0.18
-"""Width of a journal's column, and of what is printed of its page, m."""
+"""Width of a journal column and of its type area, m."""
 
 WIDE = 8.0
 """Inches by default, from which on a figure takes the page."""
@@ -34,7 +34,7 @@ TOUCH = 0.05
 """Share of a text's box that may lie in another's: boxes are a little larger than letters."""
 
 APART = 0.12
-"""Difference of lightness, of 1, by which two greys are told apart in print."""
+"""Smallest difference of lightness, of 1, at which two greys are distinct in print."""
 
 UNITS = ("gal", "m/s²")
 
@@ -59,12 +59,12 @@ def figure_of(name, lang):
 
 @functools.cache
 def texts_of(name, lang):
-    """Return what a figure says, read once: looking for its texts takes as long as drawing it."""
+    """Return the texts of a figure, cached: finding them takes as long as drawing."""
     return tuple(visible_texts(figure_of(name, lang)))
 
 
 def texts_in_unit(name, *, gal):
-    """Return what a figure says in a unit; its words are settled before it is drawn."""
+    """Return the texts of a figure in a unit, which is fixed before it is drawn."""
     if gal:
         return [text.get_text() for text in texts_of(name, "en")]
     with use_locale("en"):
@@ -82,7 +82,7 @@ def test_figure_texts_do_not_overlap_or_leave_canvas(name, lang):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))  # no command draws that one: it has no --size
 def test_figures_fit_journal_column_widths(name):
-    """At 85 mm, or 180, letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
+    """At 85 and 180 mm no texts overlap and none is too small to print; legends give way to titles."""
     with use_locale("ja"):
         figure = EVERY[name][1](True)
         figure = fit_figure_size(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
@@ -102,7 +102,7 @@ TOO_SMALL = {
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(name for name in EVERY if name != "field test" and not name.endswith(", two")))
 def test_small_size_fits_or_is_rejected_with_sufficient_size(name, monkeypatch):
-    """At 85 mm x 60 mm no text lies on another or leaves the canvas, in no panel without room; or a size that will do is told, in mm."""
+    """At 85 mm x 60 mm no texts overlap or leave the canvas; otherwise the message names a sufficient size in mm."""
     monkeypatch.setattr(fit_size, "RELATIVE_TOLERANCE", 0.5)  # the first size that will do, not the least
     with use_locale("en"):
         figure = EVERY[name][1](True)
@@ -126,7 +126,7 @@ def test_small_size_fits_or_is_rejected_with_sufficient_size(name, monkeypatch):
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two", "uplift", "uplift, two"])
 def test_panels_stack_vertically_at_column_width(name, lang):
-    """A column of 85 mm as high as a page holds histories, phase planes and both components; the title that was asked for goes along."""
+    """A column of 85 mm, as high as a page, holds histories, phase planes and both components with the title."""
     with use_locale(lang):
         high = {"uplift, two": 0.4, "rock, two": 0.25}.get(name, 0.235)  # twelve panels; titles of two lines above phase planes
         figure = fit_figure_size(EVERY[name][1](True), size=(COLUMN, high), title="as asked")
@@ -199,7 +199,7 @@ def test_figure_title_names_record_and_time(name):
 
 @pytest.mark.parametrize("name", EVERY)
 def test_figure_uses_one_acceleration_unit(name):
-    """F3: gal or m/s², as asked, never both; and what is drawn in m/s² is a hundredth of what is drawn in gal."""
+    """F3: a figure is in gal or m/s², never both; values in m/s² are a hundredth of those in gal."""
     assert not texts_with_unit(UNITS[1], texts_in_unit(name, gal=True))
     if texts_with_unit(UNITS[0], texts_in_unit(name, gal=True)) and name not in ALWAYS_GAL:
         texts = texts_in_unit(name, gal=False)
@@ -294,6 +294,6 @@ def labels_outside(labels, limits, kind):
 
 
 def overlap_share(first, second):
-    """Return how much of the smaller box lies in the other."""
+    """Return the share of the smaller box inside the other."""
     wide, high = min(first.x1, second.x1) - max(first.x0, second.x0), min(first.y1, second.y1) - max(first.y0, second.y0)
     return max(wide, 0.0) * max(high, 0.0) / min(first.width * first.height, second.width * second.height)

@@ -1,4 +1,4 @@
-"""A share has one form: what is small and not nothing says so, wherever it is told."""
+"""Shares have one format: a small non-zero share is not printed as zero."""
 
 from dataclasses import replace
 
@@ -16,7 +16,7 @@ SMALL = {"en": "less than 1 % of the overturning angle", "ja": "転倒限界角�
 
 @pytest.mark.parametrize("lang", SMALL)
 def test_tilt_below_one_percent_has_same_text_everywhere(lang):
-    """The line of the text, the line on the page's card and the sentence below it; none of them says 0 %."""
+    """Text, card and sentence of a small share do not print 0 %."""
     solution = response("rock")
     faint = replace(
         solution, outcome=replace(solution.outcome, overturned=False, overturned_towards=None, rocks=True, max_rotation_ratio=0.004)
@@ -60,7 +60,7 @@ def test_rock_figure_title_states_outcome():
 
 
 def test_response_repr_is_one_line():
-    """Model, body, direction, the first facts and how it ended; of many things the page says how many it leaves out."""
+    """A display has model, body, direction, first facts and outcome; the page states how many items it omits."""
     solution = response("respond")
     assert len(repr(solution)) < 300 and repr(solution).startswith("<Response respond of ") and "overturned=" in repr(solution)
     with use_locale("en"):

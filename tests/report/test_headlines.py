@@ -36,13 +36,13 @@ def test_no_motion_headline_states_factor_to_move():
 
 
 def _stated_factor(sentence):
-    """Return how many times the record a sentence says that it takes."""
+    """Return the scale factor stated in a sentence."""
     return float(re.search(r"([^\s(]+) times this record", sentence).group(1))
 
 
 @pytest.mark.parametrize("component", ["10", "280"])
 def test_factor_to_move_holds_with_vertical_motion(component):
-    """The vertical motion takes weight off and adds it: the factor told is that of both together, in each model that has it."""
+    """The stated factor applies to both components together in each model with vertical motion."""
     still = motion_of(read("hanmer_springs_2016"), component)
     stronger = {
         lambda m: solve_rock(Block(0.24, 0.72), m, vertical=True): (describe, lambda outcome: outcome.rocks),
@@ -68,7 +68,7 @@ def test_factor_to_move_uses_peak_towards_weaker_side(offset):
 
 
 def test_ratio_near_one_shows_enough_digits():
-    """1.00 stands and 1.00 falls are not told apart: there are as many digits as it takes."""
+    """Factors have enough digits to distinguish a standing from a falling run."""
     for demand, text in ((0.9996, "0.9996"), (1.0, "1.00"), (1.0 + 1e-5, "1.00001"), (1.0 + 1e-9, "1.000000"), (1.02, "1.02")):
         assert format_ratio(CriterionResult("criterion", "where", "m/s^2", None, None, 1.0, demand, demand > 1.0)) == text
 

@@ -66,7 +66,7 @@ def line_deviation(axis, line, time, values):
 
 @pytest.mark.parametrize("model", SOLVED)
 def test_history_draws_every_point_in_view(model):
-    """F1: no curve is thinned before it is cut to what is shown; what was computed and what the artists hold are compared."""
+    """F1: curves are cut to the shown window before they are thinned; computed and plotted values agree."""
     solution = response(model)
     figure = response_figure([solution])
     figure.canvas.draw()
@@ -207,7 +207,7 @@ def test_overview_strip_of_cropped_record_is_labelled():
 
 
 def test_visible_phases_are_shaded():
-    """F1: what is too short for a band is so in what is shown, not in the whole of a long record."""
+    """F1: the width of a band is judged in the shown window, not in the whole record."""
     solution = response("rock")
     (axis,) = [axis for axis in response_figure([solution]).axes if axis.get_ylabel() == "θ/α" and axis.patches]
     first, last = axis.get_xlim()
@@ -238,7 +238,7 @@ def test_block_at_rest_has_ground_motion_panel_only():
     ids=["rock", "slide", "respond", "jump"],
 )
 def test_weak_record_fills_its_panel(solve, message):
-    """A record of 3 gal is no line between limits of 300: the panel is as high as what shakes, and its key says where the limits are."""
+    """The panel of a weak record scales to the record; its key states the limits."""
     faint = motion("NS", 0.007)
     _, axis = response_figure([solve(faint)]).axes
     peak = 100.0 * np.abs(faint.horizontal).max()

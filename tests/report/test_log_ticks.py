@@ -1,4 +1,4 @@
-"""Round numbers stand along a logarithmic axis, wherever it lies and however far it reaches."""
+"""Round numbers mark a logarithmic axis of any position and length."""
 
 import numpy as np
 import pytest

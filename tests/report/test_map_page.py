@@ -46,7 +46,7 @@ def test_map_page_crosses_date_line():
 
 
 def test_map_page_marks_scaled_records():
-    """A page of scaled records says so before the map."""
+    """A page of scaled records states the scaling before the map."""
     records, subject = stations(StationCemetery(AOYAMA))
     scaled = map_page(replace(records, preparation=Preparation(target_pga=4.0)), subject)
     assert '<p class="processed">each record scaled to a PGA of 400 gal</p>' in scaled.replace("\xa0", " ")

@@ -84,7 +84,7 @@ VALUES = {
         [motion.record, seisblock.read("elcentro_1940_ns.csv")], seisblock.Block(0.3, 1.2), "rock", im="pgv", steps=8, bootstrap=10
     ),
 }
-"""A record, and what is made of it without a run that could be followed."""
+"""Display of a record and of results derived from it without a run."""
 
 
 @pytest.mark.parametrize("kind", VALUES)
@@ -110,7 +110,7 @@ def test_measures_repr_html_is_a_table():
 
 
 def test_assessment_repr_html_begins_with_headline():
-    """Class and probability first, then the models as a table; a single run says that it is one."""
+    """Class and probability come first, then the models as a table; a single run is marked as one."""
     assessment = seisblock.assess(BLOCK, MOTION, mu=0.5, runs=10)
     text = assessment._repr_html_().replace("\xa0", " ")
     assert re.search(r"<b[^>]*border-left:.8em solid #[0-9a-f]{6}[^>]*>EW: (likely overturns|may overturn|moves|stays) \(\d+ %", text)

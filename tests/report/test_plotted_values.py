@@ -322,7 +322,7 @@ def test_slip_limit_uses_figure_unit(gal, message):
 
 
 def test_phase_plane_is_smooth_between_impacts():
-    """Between two samples the state goes as it turns: what is drawn is that of samples ten times as close, to a 200th of the plane."""
+    """Between two samples the curve equals that of samples ten times as dense, within a 200th of the plane."""
     time = np.arange(301) * 0.01
     coarse = Motion.from_arrays(3.4 * np.sin(2.0 * np.pi * 2.7 * time), 0.01)
     slow, close = (solve_rock(Block(0.3, 0.9), item) for item in (coarse, finer_motion(coarse)))
@@ -345,7 +345,7 @@ def finer_motion(arguments):
 
 
 def test_thresholds_of_asymmetric_block_lie_on_their_side():
-    """The block whose centre of gravity lies to the right lifts about the right corner first, under ground acceleration to the left."""
+    """A block with its centre of gravity to the right uplifts about the right corner first, under ground acceleration to the left."""
     block = Block(0.4, 1.2, centroid_offset=0.08)
     motion = Motion.from_arrays(np.array([0.0, 5.0, -5.0, 0.0]), 0.02, name="NS")
     to_right, to_left = 0.12 / 0.6 * 980.665, 0.28 / 0.6 * 980.665

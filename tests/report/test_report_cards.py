@@ -25,7 +25,7 @@ def effect(name, fell_at, share):
 
 
 def test_worst_direction_has_highest_probability():
-    """NS falls later than EW, and in half of the versions, not in an eighth: the card opens with NS, and tells of EW, too."""
+    """NS falls later than EW and in half of the samples: the card begins with NS and states EW, too."""
     north, east = effect("NS", 49.66, 0.46), effect("EW", 47.52, 0.12)
     for pair in ([north, east], [east, north]):
         head, *text = card_text(pair)
@@ -49,7 +49,7 @@ def test_directions_sort_by_probability_before_nominal_outcome():
 
 @pytest.mark.parametrize(("share", "message"), [(0.0, "3 % of those predicted 0/20"), (0.5, ""), (1.0, "2 % of those predicted 20/20")])
 def test_shares_of_zero_and_one_carry_interval(share, message):
-    """No share of 0 or 1 stands alone on a card; the section says of what all shares are shares."""
+    """No card has a share of 0 or 1 alone; the section states the population of the shares."""
     result = effect("NS", None if share == 0.0 else 40.0, share)
     assert message in "".join(share_caveat(result)) and bool(message) == any("shaking-table runs" in text for text in card_text([result]))
     assert scatter_text([result]).startswith("Parameter variation only (model error not included): ")

@@ -14,7 +14,7 @@ from tests.lengths import all_but_slow
 
 @pytest.mark.parametrize("bias", all_but_slow([0.0, 0.33], {0.0}))
 def test_likelihood_curve_includes_requested_bias(bias):
-    """The curve's highest point lies where the estimate does."""
+    """The maximum of the curve is at the estimate."""
     rules = Assumptions(bias=bias, frequency_error=0.0)
     survey = counted_survey(read_cemetery("aoyama.csv"), 35, 100)
     estimate = estimate_shaking(survey, 2.0, rules)

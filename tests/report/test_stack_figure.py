@@ -1,4 +1,4 @@
-"""The figure of a pile tells its stones apart, follows each until it falls, and lays no words over its curves."""
+"""The figure of a pile distinguishes its stones, follows each until it falls, and has no text over its curves."""
 
 import functools
 
@@ -32,7 +32,7 @@ def panel_of(result, quantity):
 
 @pytest.mark.parametrize("quantity", ["tilt", "slip"])
 def test_stones_have_distinct_line_styles(quantity):
-    """A stone is told from the twelve others, in the figure as in the film."""
+    """A stone is distinct from the twelve others, in the figure as in the animation."""
     result = tower(MAXIMUM)
     lines = [line for line in panel_of(result, quantity).get_lines() if line.get_label().startswith("stone")]
     assert len({(line.get_color(), str(line._unscaled_dash_pattern)) for line in lines}) == len(lines) == MAXIMUM

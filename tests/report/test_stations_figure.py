@@ -48,7 +48,7 @@ def test_scale_bar_length_equals_its_label():
 
 
 def across_the_date_line(result):
-    """Return the stations moved east until half of them have longitudes below zero, as files tell them, and one lies nowhere on Earth."""
+    """Return the stations shifted east so that half of the longitudes are negative, and one is not on Earth."""
     moved = [
         answer if answer.longitude is None else replace(answer, longitude=(answer.longitude + 41.0 + 180.0) % 360.0 - 180.0)
         for answer in result.answers
@@ -58,7 +58,7 @@ def across_the_date_line(result):
 
 
 def test_map_across_date_line_keeps_distances():
-    """The same distances as 41 degrees further west, longitudes told from -180 to 180; what is not on the Earth is on no map."""
+    """Distances equal those 41 degrees further west with longitudes from -180 to 180; impossible positions are on no map."""
     result, _ = stations()
     second = across_the_date_line(result)
     assert any(answer.longitude < 0.0 for answer in second.mapped) and len(second.mapped) == len(result.mapped)
@@ -96,7 +96,7 @@ def test_worst_station_is_labelled_near_epicentre(west, south):
 
 
 def test_likely_overturning_has_thick_outline():
-    """A station at which the body likely overturns has a thick rim; the label of the scale says so."""
+    """A station at which the body likely overturns has a thick rim, which the label of the scale explains."""
     subject = StationBody(load_block("gravestone"), RespondOptions(mu=0.6), runs=20)
     result, _ = stations()
     effects = [
@@ -123,7 +123,7 @@ def test_scale_bar_covers_no_station(corner, expected):
 
 
 def test_scaled_records_are_marked_on_map():
-    """A figure of scaled records says so in its title."""
+    """The title of a figure of scaled records states the scaling."""
     records, subject = stations(StationCemetery(AOYAMA))
     scaled = replace(records, preparation=Preparation(scale=4.0))
     assert map_title(scaled, subject).endswith("records scaled by 4") and "scaled" not in map_title(records, subject)

@@ -19,7 +19,7 @@ RIGID = StackOptions(law="rigid")
 
 
 def motion_towards(azimuth):
-    """Return a motion whose +x is an azimuth, None: nobody knows."""
+    """Return a motion whose +x is an azimuth; None: unknown."""
     return Motion(STILL, 0.01, name="" if azimuth is None else f"{azimuth:g}")
 
 

@@ -158,7 +158,7 @@ def read_all(*args, **options):
 seisblock.readers.read_all = read_all
 main()
 """
-"""The first Ctrl-C meets a finalizer, which swallows what is raised in it, and the run goes on."""
+"""A Ctrl-C swallowed by a finalizer does not stop the run; the next one does."""
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
@@ -265,7 +265,7 @@ def test_sigint_before_command_exits_130_silently(tmp_path):
 
 
 def test_interrupt_in_callback_is_reported_once(monkeypatch):
-    """Python tells what is raised where nobody can catch it; an interruption that comes again needs no such line, anything else does."""
+    """A repeated interruption in a finalizer prints no line; any other exception does."""
     collected = []
     monkeypatch.setattr(sys, "unraisablehook", lambda missing: collected.append(missing.exc_type))
 

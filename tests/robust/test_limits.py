@@ -113,7 +113,7 @@ COUNTS = {
 
 
 def test_count_options_are_all_covered():
-    """The walk below meets the options that are known to be counts."""
+    """Options known to be counts are among those found by the search."""
     assert {"respond --runs", "rock --perturb", "infer --steps", "spectrum --steps", "stack --grid"} <= set(COUNTS)
     assert {"overturn-rate --most-fragile", "uplift --corner", "measure --dpi"} <= set(COUNTS)
 

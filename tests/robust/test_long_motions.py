@@ -103,7 +103,7 @@ def test_ensemble_over_chunked_motion_equals_whole(in_stretches):
 
 
 def test_curves_are_computed_on_demand(monkeypatch):
-    """A verdict follows its path once more for nobody."""
+    """A verdict alone does not integrate the path again."""
     created = SimpleNamespace(count=0)
     original = seisblock.models.slide.solve._curves
 
@@ -133,7 +133,7 @@ def test_event_buffer_overflow_changes_nothing(monkeypatch):
 
 
 def test_unbounded_events_are_rejected_with_remedy(monkeypatch):
-    """Each of them takes memory: how much is said, and what lifts the limit."""
+    """Each request above the memory limit names its size and the variable that lifts the limit."""
     monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "1")
     noise = Motion.from_arrays(np.random.default_rng(1).normal(size=40_000), 0.01)
     with pytest.raises(ParameterError, match=r"^\d+ mode changes need 2 MiB, more than the limit of 1 MiB: .* raise SEISBLOCK_MEMORY_MIB"):
@@ -192,7 +192,7 @@ def peak_bytes(solve, samples):
 
 
 def bytes_held(use, *arguments):
-    """Return what is held at the peak while something is made use of, bytes."""
+    """Return the peak memory of an operation, bytes."""
     tracemalloc.start()
     try:
         assert use(*arguments) is not None

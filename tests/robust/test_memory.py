@@ -90,7 +90,7 @@ def resident_bytes():
 
 @pytest.mark.skipif(sys.platform != "linux" or not hasattr(ctypes.CDLL(None), "malloc_trim"), reason="the heap of another library")
 def test_trim_heap_returns_free_memory():
-    """As obspy's decoder leaves it: 40 MB in small blocks, freed but for the topmost."""
+    """As ObsPy's decoder leaves it: 40 MB in small blocks, freed but for the topmost."""
     libc = ctypes.CDLL(None)
     libc.malloc.restype, libc.free.argtypes = ctypes.c_void_p, [ctypes.c_void_p]
     blocks = [libc.malloc(ctypes.c_size_t(2000)) for _ in range(20_000)]
@@ -106,7 +106,7 @@ def test_trim_heap_returns_free_memory():
 
 
 def test_reading_long_record_returns_memory(tmp_path, monkeypatch):
-    """It was 0.2 GB of a day, beside the record and what is made of it; a short file is not worth the while."""
+    """Memory of a day-long file is released after reading; a short file is left alone."""
     collected = []
     monkeypatch.setattr(sys.modules["seisblock.readers.read"], "trim_heap", lambda: collected.append(samples))
     monkeypatch.setattr(sys.modules["seisblock.readers.read"], "_TRIM_SAMPLES", 1000)

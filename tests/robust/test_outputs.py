@@ -1,4 +1,4 @@
-"""Nothing of the user's is lost: where outputs may go, and what is left when they cannot be written."""
+"""No file of the user is lost: valid places of outputs, and the state after a failed write."""
 
 import contextlib
 import csv
@@ -292,7 +292,7 @@ def test_checkpoint_on_full_disk_has_whole_lines(tmp_path):
 
 
 def test_sigterm_cleans_up(folder):
-    """R16: SIGTERM while pictures are drawn: the old film stands, nothing lies beside it, exit 143."""
+    """R16: SIGTERM while frames are drawn keeps the old animation, leaves no temporary file and exits with 143."""
     film = folder / "film.gif"
     film.write_bytes(b"old")
     command = [*PROGRAM, "jump", "--component", "EW", "--animate", "film.gif", "--slow", "40", "--quiet"]
@@ -332,7 +332,7 @@ def test_latin_1_stdout_replaces_characters(tmp_path):
 
 
 def test_ascii_stdout_replaces_characters(tmp_path):
-    """The C locale of a Python that was told not to mend it (a batch job) cannot write a station's Japanese name: a sign in its place."""
+    """A Python bound to the C locale prints a placeholder for Japanese letters of a station."""
     narrow = {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "C"}
     environment = {**{name: value for name, value in os.environ.items() if name != "PYTHONIOENCODING"}, **narrow}
     result = subprocess.run([*PROGRAM, "measure", "synthetic_jma"], cwd=tmp_path, env=environment, capture_output=True, check=False)
@@ -424,7 +424,7 @@ OTHER_NAMES = (
 
 @pytest.mark.parametrize(("line", "says"), OTHER_NAMES)
 def test_output_suffix_of_other_format_is_rejected(line, says, folder):
-    """A name that says PDF, and holds HTML, opens in nothing; what has no suffix, or one of the user's own, is written as ever."""
+    """A suffix that contradicts the content is rejected; files without or with an own suffix are written."""
     result = run(*line.split())
     assert result.exit_code == 3 and says in " ".join(result.stderr.split()), result.output
     assert sorted(path.name for path in folder.iterdir()) == ["in.csv"]

@@ -99,7 +99,7 @@ def test_full_response_factor_is_where_the_run_overturns_first():
 
 
 def test_pile_factor_is_among_its_models():
-    """A pulse that overturns one stone: the pile's own factor lies between a standing and a falling run."""
+    """A pulse that overturns one stone: the factor of the pile is between a standing and a falling run."""
     pile = load_pile("wagata").without("sao")
     pulse = Motion.from_arrays(6.0 * np.sin(np.linspace(0.0, 2 * np.pi, 101)), 0.01, name="NS")
     assessment = assess(pile, pulse, runs=2)
@@ -111,7 +111,7 @@ def test_pile_factor_is_among_its_models():
 
 @pytest.mark.parametrize("command", [("respond", "--mu", "0.6", "--runs", "20"), ("rock", "--perturb", "20")])
 def test_documents_hold_assessment_and_object(command):
-    """Exactly the keys of an assessment; the object only for several horizontals; the first line says the same."""
+    """An assessment has exactly its keys, `object` only with several horizontals; the first line agrees."""
     line = [command[0], "hanmer_springs_2016", "--block", "gravestone", "--scale", "1.5", *command[1:]]
     document = json.loads(CliRunner().invoke(main, [*line, "--json"]).stdout)
     entries = [result["assessment"] for result in document["results"]]
@@ -124,7 +124,7 @@ def test_documents_hold_assessment_and_object(command):
 
 
 def test_headline_of_weak_shaking_prints_no_huge_factor():
-    """A closed form gives factors of thousands for a motion that nobody feels."""
+    """A closed form gives factors of thousands for an imperceptible motion."""
     assessment = assess(Block(0.3, 0.9), scaled("hanmer_springs_2016", "280", 1e-3), mu=0.6, runs=2)
     assert assessment.least_factor > 100.0
     assert headline(assessment) == "280: stays (0 %; factor to overturning >10)"

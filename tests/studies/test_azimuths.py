@@ -115,7 +115,7 @@ def test_spectrum_all_azimuths_equals_worst_of_single():
 
 @pytest.mark.parametrize("offset", [0.0, 0.09])
 def test_samples_keep_centre_of_gravity_inside_base(offset):
-    """A body whose centre of gravity lies 10 mm inside its base has versions, and other models, though a tenth of its width is more."""
+    """A centre of gravity 10 mm inside the base has samples and other models, although a tenth of the width is more."""
     block, motion = Block(0.2, 0.6, centroid_offset=offset), motion_of(RECORD, "NS")
     assert wear_within(block, 0.1) == pytest.approx(0.04 if offset else 0.1)
     assert wear_within(block.with_wear(0.045), 0.1) == pytest.approx(0.045 if offset else 0.1)

@@ -151,7 +151,7 @@ class TestFits:
         ],
     )
     def test_fit_rejects_degenerate_counts(self, happened, says):
-        """No exceedance, all, a jump between two levels, or none that rises: a sentence that says which levels would tell."""
+        """No exceedance, all, a jump between two levels, or none that increases: the message names useful levels."""
         with pytest.raises(ParameterError, match=says):
             fit_fragility([1.0, 2.0, 4.0, 8.0], happened, 10)
 
@@ -183,7 +183,7 @@ class TestIntensity:
         assert factor == pytest.approx(3.7 ** (0.5 if name == "arias" else 1.0), rel=1e-12)
 
     def test_intensity_measures_equal_component_measures(self):
-        """PGA, PGV and PGD are what `measure` says of the component, and of an azimuth."""
+        """PGA, PGV and PGD equal those of `measure` for the component and for an azimuth."""
         record = seisblock.read("synthetic_jma.csv")
         for name in ("EW", "37"):
             measures = seisblock.measure(record, [name]).components[0]
@@ -292,7 +292,7 @@ class TestRuns:
             assert ends.tilt_ratio[stood] == pytest.approx([lean for fell, lean in single if not fell], rel=1e-6, abs=1e-9)
 
     def test_pile_runs_equal_solve_stack(self):
-        """A stone that falls at some factor is what the pile's own solver says."""
+        """Overturning of a stone at a factor agrees with the solver of piles."""
         (placed,) = prepare_bodies("lantern", "stack", {"points": 2})
         record = Preparation(window=(25.0, 26.0)).apply(seisblock.read("synthetic_jma.csv"))
         motion = motion_of(record, "EW")
@@ -339,7 +339,7 @@ class TestRuns:
         assert sum(level.exceeding for level in curve.levels) == fell.sum()
 
     def test_default_levels_span_the_transition(self, records):
-        """Nobody says levels: hardly any fall at the lowest, nearly all at the highest."""
+        """Default levels: hardly any overturning at the lowest, nearly all at the highest."""
         (curve,) = run_fragility(records, SHELF, "rock", im="pgv", steps=15, bootstrap=2).curves
         shares = [level.exceeding / level.runs for level in curve.levels]
         assert len(shares) == 15 and shares[0] <= 0.02 and shares[-1] >= 0.95
@@ -364,7 +364,7 @@ class TestRuns:
         assert ask(1).median_interval != ask(2).median_interval
 
     def test_bootstrap_draws_components_of_record_together(self, records):
-        """The interval is over records: the same shaking twice in each of them says nothing new."""
+        """The interval is over records: a duplicate of each record leaves it unchanged."""
         twice = [
             Record(station=r.station, start=None, dt=r.dt, components=(r.components[0], Component("NS", r.components[0].acceleration, 0.0)))
             for r in records
@@ -496,7 +496,7 @@ class TestScatter:
 
 
 def test_all_azimuths_counts_any_direction():
-    """A record passes where the block falls in any of 36 directions, at the largest intensity of them; two-sided in 72; it is said."""
+    """Exceedance in any of 36 directions (two-sided: 72) counts, at the maximum intensity over them, with a note."""
     subset = [
         Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), shaking(seed)[1], strict=True)), 0.005 * (1 + seed))
         for seed in range(3)

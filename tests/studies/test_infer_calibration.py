@@ -133,7 +133,7 @@ def test_infer_intervals_are_narrower_than_before():
 
 @pytest.mark.slow
 def test_infer_without_bias_misses_high(stones_overturned):
-    """With eq. (9) taken at its word every miss lies above the interval."""
+    """With eq. (9) taken as exact every miss is above the interval."""
     bare = Assumptions(bias=0.0, common_error=0.3, stone_error=0.1, frequency_error=0.0)
     missed = []
     for falls in stones_overturned:

@@ -18,7 +18,7 @@ def test_intervals_equal_scipy(counted, confidence):
 
 
 def test_clopper_pearson_ends_have_binomial_tails():
-    """Each end is where the binomial tail holds half of what is left out; none and all have one-sided closed forms."""
+    """Each bound is a binomial tail of half the excluded probability; none and all have one-sided closed forms."""
     low, high = clopper_pearson(35, 100)
     assert binom.sf(34, 100, low) == pytest.approx(0.025, rel=1e-9)
     assert binom.cdf(35, 100, high) == pytest.approx(0.025, rel=1e-9)

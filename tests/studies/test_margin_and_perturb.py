@@ -71,7 +71,7 @@ def test_margin_of_stable_block_has_one_window():
 
 
 def test_outcome_within_2_percent_of_flip_is_flagged():
-    """Within 2 % of a flip the response says so and warns; further away it says no; before it is looked for it says nothing."""
+    """Within 2 % of a change of the result the response warns; further away it does not; without a search the field is None."""
     for x, fragile in ((3.019 * 1.015, True), (3.019 * 0.985, True), (3.019 * 1.05, False)):
         motion = one_sine(x)
         response = solve_rock(BLOCK, motion, restitution=0.9, linear=True)
@@ -110,7 +110,7 @@ def test_margin_rejects_invalid_scan(limit, step):
 
 
 def test_perturb_far_from_flip_is_certain():
-    """All or none of the runs overturn, and the interval says what so few runs can tell."""
+    """Where all or none of the runs overturn, the interval shows the sampling uncertainty."""
     narrow = ParameterVariation(restitution=0.05, amplitude=0.05)
     sure = perturb(BLOCK, one_sine(4.5), 60, options=RockOptions(restitution=0.9), spread=narrow)
     assert (sure.overturned, sure.probability, sure.probability_interval[1]) == (60, 1.0, 1.0)
@@ -138,7 +138,7 @@ def test_perturb_amplitudes_are_uniform(above, share):
 
 
 def test_perturb_states_what_its_interval_covers():
-    """The share is one among versions of the model, and says so; it is not the chance of the stone (N12)."""
+    """The share is that of the samples of the model, not the probability of the stone, and is stated as such (N12)."""
     assert perturb(BLOCK, one_sine(3.0), 5).interval_of == "parameter variation only"
 
 

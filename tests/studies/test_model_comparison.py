@@ -70,7 +70,7 @@ def test_simulated_factor_is_first_overturning_factor():
 
 
 def test_given_inset_is_compared_with_sharp_edges():
-    """A block that says how worn it is is compared with its own edges made sharp."""
+    """A block with edge wear is compared with the same block with sharp edges."""
     comparison = opinions(compare_models(STONE.with_wear(0.2), MOTION))
     assert comparison[SHARP_BLOCK] == opinions(compare_models(STONE, MOTION))[SHARP_BLOCK]
     assert comparison[WORN_BLOCK].factor < opinions(compare_models(STONE, MOTION))[WORN_BLOCK].factor
@@ -99,7 +99,7 @@ def test_fixed_top_stone_is_not_compared():
 
 
 def test_zero_motion_overturns_in_no_model():
-    """A motion that is zero throughout lets nothing fall, by nobody's account."""
+    """A motion of zeros overturns nothing in any model."""
     comparison = compare_models(STONE, Motion.from_arrays(np.zeros(100), 0.01))
     assert (comparison.falls, comparison.spread, comparison.unanimous) == (0, None, True)
 

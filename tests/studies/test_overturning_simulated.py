@@ -1,4 +1,4 @@
-"""Stones that rock as rigid blocks: with inset pivots they fall as [Furukawa2009]_ eq. (9) says, without they do not."""
+"""Simulated stones with inset pivots overturn as in [Furukawa2009]_ eq. (9), those without do not."""
 
 from __future__ import annotations
 

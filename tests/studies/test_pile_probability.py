@@ -150,13 +150,13 @@ def test_pile_samples_with_more_wear_fall():
 
 
 def test_contact_grid_varies_no_inset():
-    """Its points stand inside by themselves: the answer says that no inset was varied."""
+    """A grid of contact points has no edges: the result states that no inset was varied."""
     probability = stack_probability(PILE, PULSE, runs=4, options=StackOptions(points=5), versions=ParameterVariation(inset=0.3))
     assert probability.versions.inset == 0.0
 
 
 def test_sampled_wear_keeps_pile_standing():
-    """A stone whose load is near an edge varies by less than asked, and the answer says by how much; each sample stands at rest."""
+    """The wear of a stone loaded near an edge varies by less, which the result states; each sample starts at rest."""
     edgy = Pile("edgy", (PILE.stones[0], replace(PILE.stones[1], offset=(0.23, 0.0)))).with_wear(0.25)
     widest = widest_wear(edgy, 0.9)
     assert 0.1 < widest < 0.8
@@ -176,7 +176,7 @@ def test_pile_probability_rejects_invalid_half_widths(width):
 
 
 def test_pile_samples_that_create_energy_are_excluded(monkeypatch):
-    """One bad version takes neither the others nor the answer away; where all are bad the reason is told."""
+    """One failed sample does not fail the others; where all fail the reason is given."""
     calls = iter(range(8))
 
     def sometimes(body, motion, **options):

@@ -113,7 +113,7 @@ TABLES = {
 
 @pytest.mark.parametrize("text", TABLES)
 def test_hazard_table_accepts_headings_units_and_order(text, tmp_path):
-    """Units in headings, rates or probabilities, Japanese headings, any order; levels never or surely exceeded are left out, and said."""
+    """Units in headings, rates or probabilities, Japanese headings, any order; certain and impossible levels are omitted with a note."""
     (tmp_path / "h.csv").write_text("# from somewhere\n" + text, encoding="utf-8")
     hazard = read_hazard(tmp_path / "h.csv")
     im, levels, rates = TABLES[text]
@@ -159,7 +159,7 @@ def test_hazard_table_rejects_invalid_values(text, tmp_path):
 
 
 def test_hazard_table_with_several_measures_requires_choice(tmp_path):
-    """A table of two measures says which there are; asked for one, the other is named as passed over."""
+    """A table of two measures lists them; with one selected the other is named as ignored."""
     (tmp_path / "h.csv").write_text("pgv_m_s,pga_g,annual_rate\n0.2,0.1,0.01\n0.6,0.4,0.001\n", encoding="utf-8")
     hazard = read_hazard(tmp_path / "h.csv", im="pga")
     assert hazard.im == "pga" and "pgv_m_s" in str(hazard.notes[0])
@@ -217,7 +217,7 @@ def write_fragility(tmp_path, **changed):
 
 
 def test_fragility_document_round_trips(tmp_path):
-    """Its body, limit and curve; what is in another measure than the hazard is refused."""
+    """Body, limit state and curve are stated; a curve in another measure than the hazard is rejected."""
     (curves,) = read_fragility(write_fragility(tmp_path))
     assert (curves.body, curves.limit, curves.curve) == ("stone", "overturn", Lognormal(0.5, 0.3))
     assert check_measure((curves,), site()) == (curves,)
@@ -245,6 +245,6 @@ def test_foreign_fragility_document_is_rejected(text, tmp_path):
 
 
 def test_bundled_hazard_equals_script_output():
-    """Synthetic, and says so."""
+    """The bundled hazard is marked as synthetic."""
     assert make_hazard.make().encode() == sample_path(make_hazard.NAME).read_bytes()
     assert "SYNTHETIC" in make_hazard.HEADER

@@ -1,4 +1,4 @@
-"""Every factor on a record that gives an observed displacement is found, and a leap is told from a solution."""
+"""Every factor that gives an observed displacement is found; a jump of the function is no solution."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_scale_factors_find_solutions_and_discontinuities():
 
 
 def test_unreachable_displacement_has_no_factor():
-    """The largest displacement of the scan is told instead."""
+    """The largest displacement of the scan is reported instead."""
     factors = scale_factors(slide_displacement(0.2, PULSE), 1e3, PULSE)
     assert factors.scale_factors == ()
     assert factors.largest_at_scale == 3.0

@@ -49,7 +49,7 @@ def test_survey_without_falls_has_bound_and_no_residual():
 
 
 def test_contradicting_pairs_are_named():
-    """A place and a station, and two places, within ten kilometres; not further apart, nor where intervals nearly meet."""
+    """Places and stations within ten kilometres with disjoint intervals are flagged; others are not."""
     values = (("fell", 35.0, 139.01, 99), ("stands", 35.01, 139.0, 1), ("far", 35.5, 139.0, 99))
     places = [SurveyedPlace(name, north, east, 100, fallen) for name, north, east, fallen in values]
     answers = compare_surveys(places, Stations((station("A", 35.0, 139.0, 6.7),), None), AOYAMA)

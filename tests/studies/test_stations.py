@@ -64,7 +64,7 @@ def test_damaged_station_fails_alone(station_results):
 
 
 def test_two_earthquakes_are_detected_behind_incomplete_header():
-    """The first record tells a magnitude alone; the next two are of two earthquakes, and refused as if they stood alone."""
+    """A record with a magnitude alone is accepted; the records of two earthquakes are rejected."""
     values = ({}, {"event_latitude_deg": 35.0, "event_longitude_deg": 139.0}, {"event_latitude_deg": 38.0, "event_longitude_deg": 143.0})
     row = np.sin(np.arange(200.0))
     records = [Record([Component("NS", row)], 0.01, metadata={"magnitude": 7.0, **item}) for item in values]

@@ -64,7 +64,7 @@ class Trace:
 
 
 def named(mode) -> tuple[str, str | None, str | None]:
-    """Return a mode as the program says it: name, corner, slip."""
+    """Return a mode in the notation of the program: name, corner, slip."""
     if mode == OVERTURNED:
         return OVERTURNED, None, None
     closed = [corner for corner in (RIGHT, LEFT) if mode[corner] is not None]
@@ -238,7 +238,7 @@ class Run:
         return True
 
     def thrown(self, rates, names) -> tuple[float, list[float]]:
-        """Return the time scale of the smallest hop, and until when each guard says nothing.
+        """Return the time scale of the smallest hop, and the time before which each guard is inactive.
 
         A gap or slip that has just been set to zero with its rate cannot be told from noise, nor can forces at their threshold; one
         that begins with a speed can.

@@ -72,7 +72,7 @@ NEARLY_LOSSLESS = {"mu": 0.5, "restitution": 0.99999}
 
 
 def test_restitution_near_one_ends_with_unresolved_status():
-    """A restitution near 1: a status and a sentence, within seconds; what is said first is that there is no answer."""
+    """A restitution near 1 gives a status and a sentence within seconds, beginning with the missing result."""
     response = solve_respond(
         SLENDER, still_ground(1.0), **NEARLY_LOSSLESS, initial=at_lean(SLENDER, 1e-8), settle_s=10.0, sensitivity=False
     )

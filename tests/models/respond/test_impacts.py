@@ -97,7 +97,7 @@ def test_sliding_landing_with_low_friction_stays_flat():
 )
 @settings(max_examples=300, deadline=None)
 def test_routh_impulse_lies_in_friction_cone_and_dissipates(u, v, rx, ry, k2, mu, e):
-    """The impulse presses, lies in the cone, ends with a separating velocity, and takes energy away."""
+    """The impulse is compressive, inside the cone, ends with a separating velocity, and dissipates energy."""
     nn, tt, tn = 1.0 + rx * rx / k2, 1.0 + ry * ry / k2, -rx * ry / k2
     normal, tangential, u_after, v_after = routh(u, v, nn, tt, tn, mu, e, False)
     assert normal >= 0.0 and u_after >= 0.0
@@ -155,7 +155,7 @@ def test_given_restitution_scales_angular_velocity():
 
 
 def test_given_restitution_is_lowered_when_it_would_create_energy():
-    """An unequal body that falls from its far corner to its near one: r = 1 gains height rate, so it is lowered, and said."""
+    """An asymmetric body falling from its far to its near corner: r = 1 gains energy and is reduced, with a warning."""
     response = solve_respond(UNEQUAL, still_ground(), mu=5.0, rocking_restitution=1.0, initial=at_lean(UNEQUAL, 0.05))
     assert response.outcome.ratios_lowered > 0
     assert any("energy" in text for text in response.warnings)
@@ -184,7 +184,7 @@ def test_zero_restitution_above_painleve_limit_decays_to_rest(width, height, mu,
 
 
 def test_painleve_limit_of_rectangle_is_four_thirds():
-    """2 sqrt(kappa (1 + kappa)) with kappa = 1/3 is 4/3, whatever the slenderness; it is said above it and not below."""
+    """2 sqrt(kappa (1 + kappa)) with kappa = 1/3 is 4/3 for any slenderness; above it there is a warning, below it none."""
     for block in (SLENDER, Block(1.0, 0.4)):
         assert respond_params(block, options=RespondOptions(mu=0.5)).rigid_body.friction_limit == pytest.approx(4.0 / 3.0, rel=1e-14)
         assert any("Painleve" in text for text in solve_respond(block, still_ground(0.1), mu=1.4).warnings)

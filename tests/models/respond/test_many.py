@@ -81,7 +81,7 @@ def test_parameters_from_arrays_equal_scalar_parameters(initial):
 
 
 def test_invalid_row_raises_message_of_single_run():
-    """The first row that is wrong says why."""
+    """The first invalid row gives the reason."""
     two = to_block_array([Block(0.3, 0.9), Block(0.3, 1.2)])
     for mu, kinetic, e, reason in (
         (-0.1, -0.2, 0.0, "friction coefficient mu"),

@@ -40,7 +40,7 @@ BLOCK = Block(0.4, 1.0)
     ],
 )
 def test_solve_respond_rejects_invalid_numbers(options, message):
-    """Each names the quantity, what is expected, and what was found."""
+    """Each message names the quantity, the expected and the found value."""
     with pytest.raises(ParameterError, match=message) as error:
         solve_respond(BLOCK, still_ground(), **options)
     assert "\n" not in str(error.value)
@@ -52,7 +52,7 @@ def test_solve_respond_rejects_centre_outside_base():
         Block(0.4, 1.0, centroid_offset=0.3)
 
     class Worn(Block):
-        """A block whose right corner lies beyond the centre."""
+        """A block with its right corner beyond the centre is rejected."""
 
         @property
         def arms(self):
@@ -98,7 +98,7 @@ def test_two_layer_block_equals_rigid_composite():
 
 
 def test_overturning_ends_at_quarter_turn_or_protruding_point():
-    """The block falls from beyond its balance; a point of it that sticks out meets the ground earlier."""
+    """The block falls from beyond its balance; a protruding point reaches the ground earlier."""
     start = at_lean(SLENDER, 0.3)
     response = solve_respond(SLENDER, still_ground(), mu=2.0, initial=start)
     outcome = response.outcome
@@ -138,7 +138,7 @@ def test_ground_acceleration_is_zero_after_last_sample():
 
 
 def test_initial_displacement_is_included_in_results():
-    """A body put down elsewhere says where it is, in the outcome as in the channel."""
+    """An initial position appears in the outcome and in the channel."""
     first = solve_respond(BLOCK, shaking(1, 6.0), mu=0.3).outcome
     second = solve_respond(BLOCK, shaking(1, 6.0), mu=0.3, initial=(5.0, 0.5, 0.0, 0.0, 0.0, 0.0)).outcome
     assert second.final_displacement_m == pytest.approx(5.0 + first.final_displacement_m, abs=1e-12)
@@ -181,7 +181,7 @@ def test_tenon_of_tilted_block_disengages_at_lower_corner():
 
 
 def test_outcome_near_overturning_factor_is_flagged_sensitive():
-    """Between a factor that overturns and one that does not, 1e-6 apart or less, the verdict says so; far from it not."""
+    """Between an overturning and a standing factor 1e-6 apart the result is sensitive; far from it it is not."""
     motion = shaking(11, 8.0, vertical=0.0)
 
     def falls(factor):

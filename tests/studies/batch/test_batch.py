@@ -1,4 +1,4 @@
-"""A batch says what the single commands say, and a row that has no answer says why."""
+"""Rows of a batch equal the results of the single commands; a row without a result has the reason."""
 
 import csv
 import math

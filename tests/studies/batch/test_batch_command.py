@@ -68,7 +68,7 @@ def test_batch_reports_bad_input_in_one_sentence(folder, change, message, monkey
 
 
 def test_batch_without_any_answer_writes_no_table(folder):
-    """No table is written, the reason is said, and the line that is put right runs; a table that was there stays."""
+    """On an error no table is written, the reason is given, and the corrected line runs; an existing table stays."""
     for suffix in ("csv", "parquet"):
         line = f"--bodies bodies.csv --solver rock --out t.{suffix}"
         answer = run(f"batch gone.csv {line}")
@@ -114,7 +114,7 @@ def test_batch_parquet_equals_csv(folder):
 
 
 def test_batch_resume_rejects_other_options(folder):
-    """Going on with it under another factor, body, component or number of bodies is refused; it said that nothing was left to do."""
+    """Resuming with another factor, body, component or number of bodies is rejected."""
     assert run(LINE).exit_code == 0
     full = Path("t.csv").read_bytes()
     text = Path("bodies.csv").read_text(encoding="utf-8")
@@ -142,7 +142,7 @@ def test_batch_of_one_station_is_complete(folder):
 
 
 def test_batch_locks_its_table(folder):
-    """The second is refused while the first lives, whatever it says; it wrote into the journal of the first, which then lost its rows."""
+    """A second run on the same file is rejected while the first is active; it would write into the journal of the first."""
     journal = folder / "t.csv.journal"
     with lock_checkpoint(journal):
         Checkpoint.begin(journal, {"of": "another run"})

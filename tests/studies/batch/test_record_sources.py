@@ -55,7 +55,7 @@ def test_sources_list_each_recording_once(folder):
 
 
 def test_folder_skips_files_that_are_not_records(folder):
-    """Pictures, notes, hidden files, empty ones; with what is said of a format nothing but those is passed over."""
+    """Pictures, notes, hidden and empty files are ignored; with a given format only these are."""
     for name in ("records/photo.png", "records/notes.md", "records/.hidden.csv", "records/empty.csv"):
         (folder / name).write_bytes(b"" if "empty" in name else b"time,NS (gal)\n0,1\n0.01,2\n")
     (folder / "records" / "noise.bin").write_bytes(bytes(range(256)) * 8)
@@ -133,7 +133,7 @@ def test_station_option_selects_from_bundle(folder):
 
 
 def test_damaged_bundle_keeps_earlier_records(folder):
-    """And says in a row of its own what is wrong with the rest."""
+    """A row of its own states the reason for the rest."""
     members = [(path.name, path.read_bytes()) for path in KNET] + [("z.csv", write_record(folder / "z.csv", 1).read_bytes())]
     bundle = pack(folder / "event.zip", members)
     data = bytearray(bundle.read_bytes())

@@ -12,7 +12,7 @@ from seisblock.studies.fit.fit import fit_block
 
 TRUTH = from_slenderness(0.25, 4.0)
 KNOWN = {"block": TRUTH, "scatter": 0.05, "lapse": 0.02, "runs": 4}
-"""What a quick fit is told: all but what it looks for."""
+"""Arguments of a quick fit, apart from the free parameters."""
 
 
 def pulse(peak, frequency, dt=0.01):

@@ -1,4 +1,4 @@
-"""Intervals hold the truth as often as they claim: experiments drawn from what is thought before, and fitted."""
+"""Credible intervals have their nominal coverage for experiments drawn from the prior."""
 
 import numpy as np
 import pytest

@@ -85,7 +85,7 @@ def test_fit_weight_equals_repeated_outcomes(experiment):
 
 
 def test_fit_with_all_or_no_falls_warns_of_prior():
-    """One side is bounded, and what was thought before decides the other: it is said."""
+    """Outcomes bound one side and the prior the other, with a warning."""
     for happened, strength, message in ((False, 1.0, "no overturning among"), (True, 40.0, "only overturning among")):
         observations = [Observation(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
         fit = fit_block(observations, free=["alpha"], **KNOWN)
@@ -104,7 +104,7 @@ def test_fit_of_one_record_has_no_cross_validation():
 
 
 def test_fit_to_movement_determines_slenderness_only():
-    """A block rocks above g tan(alpha), whatever its size: alpha is found, p stays as it was thought before, and that is said."""
+    """Rocking starts above g tan(alpha) for any size: alpha is determined, p keeps its prior, with a warning."""
     peaks = np.linspace(1.0, 5.0, 30)
     observations = [Observation(pulse(peak, 1.0), peak > 9.80665 * np.tan(0.25)) for peak in peaks]
     fit = fit_block(observations, kind="moved", free=["alpha", "p"], scatter=0.02, lapse=0.02, runs=4)
@@ -166,7 +166,7 @@ def test_fit_rejects_invalid_options(quantity, experiment):
 
 
 def test_fit_rejects_invalid_outcomes():
-    """Nor what is no motion."""
+    """Objects that are no motions are rejected, too."""
     with pytest.raises(KindError, match="expected Observation, found tuple"):
         fit_block([(pulse(1.0, 1.0), True)])
     with pytest.raises(KindError, match="expected a Motion"):
@@ -229,7 +229,7 @@ def test_likelihood_equals_product_over_outcomes():
 
 
 def test_proposal_density_integrates_to_one():
-    """Over the square it adds up to one, and points drawn from it fill it as it says."""
+    """The density integrates to one over the square, and points drawn from it follow it."""
     rng = np.random.default_rng(4)
     cloud = make_proposal(rng.normal([0.1, 0.6], [0.1, 0.05], (60, 2)).clip(0.01, 0.99), np.ones(60), 4000, rng)
     middles = (np.arange(150) + 0.5) / 150

@@ -1,4 +1,4 @@
-"""``seisblock fit`` and tables of outcomes: what is understood, what is left out, and what is refused in a sentence."""
+"""``seisblock fit`` and tables of outcomes: accepted, omitted and rejected entries."""
 
 import json
 import shutil
@@ -49,7 +49,7 @@ def table(folder, *lines):
 
 
 def test_fit_writes_document_table_and_figure(folder):
-    """Parameters with intervals, what is held out, each outcome; the table beside it and the figure."""
+    """Parameters with intervals, held-out scores, each outcome, the table and the figure."""
     answer = run(f"fit seen.csv {QUICK} --folds 3 --json --csv out.csv")
     assert answer.exit_code == 0, answer.stderr
     output = json.loads(answer.stdout)
@@ -101,7 +101,7 @@ def test_fit_skips_and_reports_rows_without_record(folder):
 
 
 def test_fit_outcome_column_is_selectable(folder):
-    """Both columns: fell, and it is said; or the other."""
+    """With both columns ``fell`` is used, with a note, or the other one on request."""
     table(folder, "record,fell,moved", *(f"p{k}.csv,0,1" for k in range(3)))
     observations = read_outcomes("seen.csv")
     assert observations.kind == "fell" and any("column fell used" in note for note in observations.notes)
