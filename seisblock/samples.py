@@ -88,6 +88,10 @@ def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
     name : str
         File name, or the part of it before the first dot (``synthetic_jma``).
 
+    Returns
+    -------
+    Path
+
     Raises
     ------
     RecordNotFoundError

@@ -222,6 +222,10 @@ class Block(DisplayMixin):
         ----------
         azimuth : float, degrees
 
+        Returns
+        -------
+        Block
+
         Examples
         --------
         >>> round(Block(1.0, 2.0).block_toward(45.0).width, 6), Block(1.0, 2.0, depth=3.0).block_toward(90.0).width
@@ -304,6 +308,10 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
     frequency_parameter : float, rad/s
         p = sqrt(3 g/(4 R)), positive.
     gravity : float, m/s^2
+
+    Returns
+    -------
+    Block
 
     Examples
     --------

@@ -48,6 +48,10 @@ def load_block(name: str | Path, *, side: str = "short") -> Block:
     side : "short" or "long"
         Side along the motion, for a two-layer body with both.
 
+    Returns
+    -------
+    Block
+
     Raises
     ------
     BodyError

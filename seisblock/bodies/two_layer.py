@@ -285,6 +285,10 @@ def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
     side : "short" or "long"
         Side along the motion, for a file with both.
 
+    Returns
+    -------
+    TwoLayerBlock
+
     Raises
     ------
     BodyError
@@ -305,6 +309,10 @@ def load_contact(name: str | Path) -> Contact:
     ----------
     name : str or Path
         TOML file or bundled name, with a table ``contact`` of ``mu`` and the other parameters of :class:`Contact`.
+
+    Returns
+    -------
+    Contact
 
     Raises
     ------

@@ -98,6 +98,10 @@ def unit_suffix(unit: str) -> str:
     unit : str
         Unit, ``1`` for a dimensionless quantity.
 
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> from seisblock.units import unit_suffix
@@ -114,6 +118,10 @@ def acceleration_unit(name: str) -> float:
     ----------
     name : str
         Unit, such as ``gal``; case-insensitive.
+
+    Returns
+    -------
+    float, m/s^2
 
     Raises
     ------
@@ -141,6 +149,10 @@ def parse_length(text: str | float, *, quantity: str = "length") -> float:
         A number without a unit is in metres and at most 20. Several units in descending order add up.
     quantity : str
         Name of the length in messages.
+
+    Returns
+    -------
+    float, m
 
     Raises
     ------
@@ -252,6 +264,10 @@ def parse_mass(text: str | float, *, quantity: str = "mass") -> float:
     quantity : str
         Name of the quantity in an error.
 
+    Returns
+    -------
+    float, kg
+
     Raises
     ------
     UnitError
@@ -275,6 +291,10 @@ def parse_acceleration(text: str, *, quantity: str = "acceleration") -> float:
         A number with a unit, which is required: gal and m/s^2 differ by a factor of 100.
     quantity : str
         Name of the acceleration in messages.
+
+    Returns
+    -------
+    float, m/s^2
 
     Raises
     ------

@@ -78,6 +78,11 @@ def overturning_card(
         Equivalent frequencies; None if undefined.
     gravity : float, m/s^2
 
+    Returns
+    -------
+    tuple of CriterionResult
+        One per criterion, in the order of the printed table.
+
     Raises
     ------
     ParameterError

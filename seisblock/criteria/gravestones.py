@@ -96,6 +96,11 @@ def overturning_level(frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> Float
         Frequency of the sine, or equivalent frequency, zero or more.
     fit : GravestoneFit
 
+    Returns
+    -------
+    array, m/s^2
+        In the shape of the frequencies.
+
     Raises
     ------
     ParameterError
@@ -121,6 +126,11 @@ def overturning_ratio(pga: ArrayLike, frequency: ArrayLike, fit: GravestoneFit =
     frequency : array, Hz
     fit : GravestoneFit
 
+    Returns
+    -------
+    array, 1
+        In the broadcast shape of the arguments.
+
     Examples
     --------
     >>> from seisblock.criteria import overturning_ratio
@@ -139,6 +149,11 @@ def overturning_pga(ratio: ArrayLike, frequency: ArrayLike, fit: GravestoneFit =
         H/B of the stones, positive.
     frequency : array, Hz
     fit : GravestoneFit
+
+    Returns
+    -------
+    array, m/s^2
+        In the broadcast shape of the arguments.
 
     Examples
     --------
@@ -162,6 +177,11 @@ def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit =
         H/B of the stones.
     fit : GravestoneFit
 
+    Returns
+    -------
+    array, Hz
+        In the broadcast shape of the arguments.
+
     Examples
     --------
     >>> from seisblock.criteria import overturning_frequency
@@ -184,6 +204,10 @@ def predict(ratio: float, threshold: float) -> Prediction:
     threshold : float
         Minimum H/B of a stone that overturns.
 
+    Returns
+    -------
+    Prediction
+
     Examples
     --------
     >>> from seisblock.criteria import predict
@@ -204,6 +228,11 @@ def fit_range_warnings(pga: float, frequency: float, ratios: ArrayLike = ()) -> 
     frequency : float, Hz
     ratios : array
         H/B of the stones.
+
+    Returns
+    -------
+    tuple of str
+        Empty inside the range.
 
     Examples
     --------

@@ -47,6 +47,10 @@ def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity:
         Apply the vertical component, or a factor on it; None: apply it if the record has one.
     gravity : float, m/s^2
 
+    Returns
+    -------
+    two floats, 1 and s
+
     Examples
     --------
     >>> from seisblock.criteria import peak_loading_ratio
@@ -102,6 +106,10 @@ def friction_to_rock(block: Block, ratio: float) -> float | None:
     ratio : float
         Acceleration ratio A, 1.
 
+    Returns
+    -------
+    float or None, 1
+
     Examples
     --------
     >>> from seisblock.criteria import friction_to_rock
@@ -130,6 +138,10 @@ def first_mode(block: Block, mu: float, ratio: float) -> Mode:
         Friction coefficient, 0 or more.
     ratio : float
         Acceleration ratio A, 1.
+
+    Returns
+    -------
+    Mode
 
     Examples
     --------

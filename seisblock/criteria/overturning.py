@@ -21,6 +21,10 @@ def static_acceleration(width: float, height: float, gravity: float = STANDARD_G
         B and H of a homogeneous block, or twice the lever arm and twice the height of its centre of gravity.
     gravity : float, m/s^2
 
+    Returns
+    -------
+    float, m/s^2
+
     Raises
     ------
     ParameterError
@@ -52,6 +56,10 @@ def housner_acceleration(slenderness: float, frequency_parameter: float, frequen
         Frequency of the sine.
     gravity : float, m/s^2
 
+    Returns
+    -------
+    float, m/s^2
+
     Raises
     ------
     ParameterError
@@ -77,6 +85,10 @@ def housner_acceleration_as_printed(width: float, height: float, frequency: floa
     width, height : float, m
     frequency : float, Hz
     gravity : float, m/s^2
+
+    Returns
+    -------
+    float, m/s^2
 
     Raises
     ------
@@ -109,6 +121,10 @@ def tsutsui_velocity(width: float, height: float, gravity: float = STANDARD_GRAV
     cosine : bool
         True for eq. (4).
 
+    Returns
+    -------
+    float, m/s
+
     Raises
     ------
     ParameterError
@@ -131,6 +147,10 @@ def tsutsui_sine_velocity(acceleration: float, frequency: float) -> float:
     ----------
     acceleration : float, m/s^2
     frequency : float, Hz
+
+    Returns
+    -------
+    float, m/s
 
     Raises
     ------
@@ -162,6 +182,10 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
         p.
     gravity : float, m/s^2
 
+    Returns
+    -------
+    float, m/s
+
     Raises
     ------
     ParameterError
@@ -190,6 +214,10 @@ def ishiyama_acceleration(width: float, height: float, gravity: float = STANDARD
     width, height : float, m
     gravity : float, m/s^2
 
+    Returns
+    -------
+    float, m/s^2
+
     Raises
     ------
     ParameterError
@@ -212,6 +240,10 @@ def ishiyama_velocity(width: float, height: float) -> float:
     Parameters
     ----------
     width, height : float, m
+
+    Returns
+    -------
+    float, m/s
 
     Raises
     ------

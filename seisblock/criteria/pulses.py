@@ -122,6 +122,10 @@ def one_sine_ratio(w: float) -> float:
     w : float
         W = omega/p, positive: ratio of the circular frequency of the sine to the frequency parameter.
 
+    Returns
+    -------
+    float, 1
+
     Raises
     ------
     ParameterError
@@ -145,6 +149,10 @@ def rectangular_ratio(duration: float, frequency_parameter: float) -> float:
         t, positive.
     frequency_parameter : float, rad/s
         p, positive.
+
+    Returns
+    -------
+    float, 1
 
     Raises
     ------

@@ -105,6 +105,10 @@ def long_period_class(floor_velocity: float) -> str:
     floor_velocity : float, m/s
         Largest absolute velocity of the floors.
 
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> from seisblock.measures import long_period_class

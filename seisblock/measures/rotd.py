@@ -62,6 +62,10 @@ def rotated_spectrum(record: Record, periods: ArrayLike | None = None, *, dampin
     damping : float
         Damping ratio, 0 <= damping < 1.
 
+    Returns
+    -------
+    RotatedSpectrum
+
     Raises
     ------
     ParameterError

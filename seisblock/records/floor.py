@@ -147,6 +147,11 @@ def floor_motion(record: Record, storey: Storey) -> Record:
         Ground motion.
     storey : Storey
 
+    Returns
+    -------
+    Record
+        With free vibration appended and, where needed, a shorter sampling interval.
+
     Raises
     ------
     ParameterError

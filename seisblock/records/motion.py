@@ -102,6 +102,10 @@ class Motion(PlotMixin):
         dt, name, start_s
             As for the class.
 
+        Returns
+        -------
+        Motion
+
         Raises
         ------
         ParameterError
@@ -177,6 +181,10 @@ class Motion(PlotMixin):
             Rows to compute; the other rows of a long motion are zero.
         first_sample : int
             Start of the first segment of a long motion, at the latest its last interval.
+
+        Yields
+        ------
+        MotionSegment
         """
         if not self.is_long:
             yield MotionSegment(0, self.acceleration, 0)
@@ -211,6 +219,10 @@ def motion_of(record: Record, component: str) -> Motion:
         Source; a missing vertical component gives a row of zeros.
     component : str
         Code of a horizontal component, or an azimuth in degrees clockwise from north, for example ``37``.
+
+    Returns
+    -------
+    Motion
 
     Raises
     ------

@@ -83,6 +83,10 @@ class Preparation(DisplayMixin):
         record : Record
             Record as read; not modified.
 
+        Returns
+        -------
+        Record
+
         Raises
         ------
         ParameterError

@@ -32,6 +32,10 @@ def demean(record: Record) -> Record:
     record : Record
         Record; demean before cropping to remove the offset of the whole record.
 
+    Returns
+    -------
+    Record
+
     Examples
     --------
     >>> from seisblock.records import demean
@@ -56,6 +60,10 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
         Record; ``offset_s`` of the result keeps times relative to the first sample as read.
     start_s, end_s : float or None, s
         Start and end, counted from the record's first sample as read, both included. None keeps the end of the record.
+
+    Returns
+    -------
+    Record
 
     Raises
     ------
@@ -110,6 +118,10 @@ def scale(record: Record, factor: float) -> Record:
     factor : float
         Finite; 1 returns the record unchanged, without a history entry.
 
+    Returns
+    -------
+    Record
+
     Raises
     ------
     ParameterError
@@ -139,6 +151,10 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
         Target peak absolute acceleration, positive.
     component : str or sequence of str, optional
         Codes or azimuths (degrees) that define the peak; by default all horizontals.
+
+    Returns
+    -------
+    Record
 
     Raises
     ------
@@ -189,6 +205,10 @@ def scale_to_jma(record: Record, target: float) -> Record:
         Record with two horizontals and the vertical.
     target : float, 1
         Instrumental intensity, see :func:`~seisblock.core.jma_scale.parse_jma_intensity`.
+
+    Returns
+    -------
+    Record
 
     Raises
     ------
@@ -268,6 +288,10 @@ def highpass(record: Record, hz: float) -> Record:
     hz : float, Hz
         Corner frequency, between 0 and half the sampling rate.
 
+    Returns
+    -------
+    Record
+
     Raises
     ------
     ParameterError
@@ -297,6 +321,10 @@ def component_at_azimuth(record: Record, azimuth_deg: float) -> Component:
     azimuth_deg : float, degrees
         Clockwise from north.
 
+    Returns
+    -------
+    Component
+
     Raises
     ------
     ComponentError
@@ -324,6 +352,10 @@ def rotate(record: Record, azimuth_deg: float) -> Record:
         Record with two horizontals of known azimuth.
     azimuth_deg : float, degrees
         Azimuth of the first new component, clockwise from north; the codes are the azimuths.
+
+    Returns
+    -------
+    Record
 
     Raises
     ------

@@ -125,6 +125,10 @@ def criterion_study(
     workers : int
         Threads.
 
+    Returns
+    -------
+    CriterionStudy
+
     Raises
     ------
     ParameterError

@@ -202,6 +202,10 @@ def sample(
     workers : int or None
         Threads of a pile or in three dimensions; default: the number of cores.
 
+    Returns
+    -------
+    Samples
+
     Raises
     ------
     ParameterError

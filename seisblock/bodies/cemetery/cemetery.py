@@ -154,6 +154,10 @@ class Cemetery(DisplayMixin):
         ----------
         most_fragile : int or None
             Number of stones to reinforce, in addition to those already reinforced; None for all.
+
+        Returns
+        -------
+        Cemetery
         """
         if most_fragile is None:
             return replace(self, stones=tuple(replace(stone, reinforced=True) for stone in self.stones))

@@ -30,6 +30,10 @@ def read_cemetery(name: str | Path) -> Cemetery:
     name : str or Path
         File, or name of a bundled cemetery such as ``aoyama.csv``.
 
+    Returns
+    -------
+    Cemetery
+
     Raises
     ------
     BodyError

@@ -65,6 +65,10 @@ class PileContact(DisplayMixin):
             Area of the joint, and half the sum of the heights of both stones.
         points : int
             Number of points of the joint.
+
+        Returns
+        -------
+        four floats, N/m, N s/m, N/m, N s/m
         """
         per_area = self.stiffness if self.young is None else self.young / length
         if per_area is None:

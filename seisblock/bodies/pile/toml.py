@@ -49,6 +49,10 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     mu : float or None, 1
         Static and kinetic friction of every joint; None: that of the file.
 
+    Returns
+    -------
+    Pile
+
     Raises
     ------
     BodyError

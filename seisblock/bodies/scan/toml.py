@@ -76,6 +76,10 @@ def load_scan(name: str | Path) -> ScannedBody:
         ``kind = "scan"`` with ``mass``, ``height``, ``centre``, ``inertia`` and ``base`` in kg and m, ``inset``, ``facing`` and, for
         three dimensions, ``hull``.
 
+    Returns
+    -------
+    ScannedBody
+
     Raises
     ------
     BodyError

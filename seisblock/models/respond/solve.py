@@ -174,6 +174,10 @@ def respond_params(block: Body, options: RespondOptions) -> RespondParams:
     block : Block or TwoLayerBlock
     options : RespondOptions
 
+    Returns
+    -------
+    RespondParams
+
     Raises
     ------
     ParameterError

@@ -99,6 +99,11 @@ class UpliftBatchResult(DisplayMixin):
         row : int
         start_s : float, s
             Time of the motion's first sample.
+
+        Returns
+        -------
+        dict
+            Keys are the fields of the outcome.
         """
         lifts, scale = bool(self.uplifts[row]), float(self.uplift_scale[row])
         return {

@@ -53,6 +53,10 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
     seed : int
         Seed of the random generator; a longer suite begins with a shorter one.
 
+    Returns
+    -------
+    tuple of Record
+
     Raises
     ------
     ParameterError

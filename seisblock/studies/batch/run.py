@@ -77,6 +77,10 @@ def run_batch(
     options
         Of the solver, for every body without own values: ``mu``, ``vertical``, ``gravity``, ...
 
+    Returns
+    -------
+    BatchTable
+
     Raises
     ------
     ParameterError

@@ -207,6 +207,10 @@ def read_outcomes(
     progress : callable
         Called with the number of rows read and the total.
 
+    Returns
+    -------
+    OutcomeTable
+
     Raises
     ------
     ParameterError

@@ -49,6 +49,11 @@ def read_fragility(path: str | Path) -> tuple[FragilityCurve, ...]:
     ----------
     path : str or Path
 
+    Returns
+    -------
+    tuple of FragilityCurve
+        In the order of the document.
+
     Raises
     ------
     ParameterError

@@ -78,6 +78,10 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
     exceeding, runs : (n,) arrays, 1
         Exceedances and runs at each level; one number of runs may serve all levels.
 
+    Returns
+    -------
+    Lognormal
+
     Raises
     ------
     ParameterError

@@ -312,6 +312,10 @@ def run_fragility(
     options
         Of the solver: ``mu``, ``vertical``, ``restitution``, ``gravity``, ...
 
+    Returns
+    -------
+    FragilityStudy
+
     Raises
     ------
     ParameterError

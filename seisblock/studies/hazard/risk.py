@@ -145,6 +145,10 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
     stood_years : float or None, years
         Observed period without occurrence; updates the weights of the branches.
 
+    Returns
+    -------
+    Risk
+
     Raises
     ------
     ParameterError

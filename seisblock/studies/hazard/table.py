@@ -74,6 +74,10 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
     im : str or None
         Intensity measure, if the table contains several.
 
+    Returns
+    -------
+    Hazard
+
     Raises
     ------
     HazardError

@@ -176,6 +176,10 @@ def survey_stations(
     progress : callable
         Called with the number of finished stations and of known ones.
 
+    Returns
+    -------
+    Stations
+
     Raises
     ------
     ParameterError

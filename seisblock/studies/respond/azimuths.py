@@ -95,6 +95,11 @@ def respond_directions(
     step_deg : float
         Step between directions, degrees.
 
+    Returns
+    -------
+    list of RespondAzimuth
+        Worst direction first.
+
     Raises
     ------
     SolverError

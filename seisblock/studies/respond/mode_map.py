@@ -111,6 +111,10 @@ def mode_map(
     progress : callable
         Called with the number of finished runs and the total.
 
+    Returns
+    -------
+    ModeMap
+
     Raises
     ------
     ParameterError

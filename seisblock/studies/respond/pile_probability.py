@@ -113,6 +113,10 @@ def stack_probability(
         Threads; default: the number of cores.
     options : StackOptions
 
+    Returns
+    -------
+    PileProbability
+
     Raises
     ------
     ParameterError

@@ -129,6 +129,10 @@ def respond_probability(
     progress : callable
         Called with the number of finished runs and the total.
 
+    Returns
+    -------
+    Probability
+
     Raises
     ------
     ParameterError

@@ -84,6 +84,11 @@ def rock_directions(
         Called with the number of finished runs and the total.
     options : RockOptions
 
+    Returns
+    -------
+    list of RockAzimuth
+        Worst direction first.
+
     Examples
     --------
     >>> from seisblock.studies import rock_directions

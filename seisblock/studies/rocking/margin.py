@@ -102,6 +102,10 @@ def find_margin(
         Called with the number of finished runs and the total.
     options : RockOptions
 
+    Returns
+    -------
+    Margin
+
     Raises
     ------
     ParameterError

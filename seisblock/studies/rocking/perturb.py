@@ -76,6 +76,10 @@ def perturb(
         Called with the number of finished runs and the total.
     options : RockOptions
 
+    Returns
+    -------
+    Perturbation
+
     Raises
     ------
     ParameterError

@@ -88,6 +88,10 @@ def rocking_spectrum(
         Called with the number of finished runs and the total.
     options : RockOptions
 
+    Returns
+    -------
+    RockingSpectrum
+
     Raises
     ------
     ParameterError
@@ -131,6 +135,10 @@ def rocking_spectrum_all_azimuths(
         Step between directions, degrees, over half a circle: the blocks are symmetric.
     inset, progress, options
         As in :func:`rocking_spectrum`.
+
+    Returns
+    -------
+    RockingSpectrum
 
     Raises
     ------

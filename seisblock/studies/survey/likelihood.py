@@ -106,6 +106,10 @@ def marked_survey(cemetery: Cemetery) -> Survey:
     ----------
     cemetery : Cemetery
 
+    Returns
+    -------
+    Survey
+
     Raises
     ------
     BodyError
@@ -140,6 +144,10 @@ def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
         The proportions of the stones.
     fallen, stones : int
         Fallen stones, and all stones of the count.
+
+    Returns
+    -------
+    Survey
 
     Raises
     ------

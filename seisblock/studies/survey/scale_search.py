@@ -125,6 +125,10 @@ def scale_factors(
     progress : callable
         Called with the number of finished runs and the total.
 
+    Returns
+    -------
+    ScaleFactors
+
     Raises
     ------
     ParameterError
@@ -214,6 +218,11 @@ def jump_displacement(block: TwoLayerBlock, motion: Motion, options: JumpOptions
     flight_only : bool
         Count the jump alone, not the rocking-sliding after it.
 
+    Returns
+    -------
+    function of float
+        From the factor to the displacement, m.
+
     Examples
     --------
     >>> from seisblock.survey import jump_displacement
@@ -256,6 +265,11 @@ def slide_displacement(
         As in :func:`seisblock.models.slide.solve.solve_slide`.
     largest : bool
         True for the maximum slip, not the residual one.
+
+    Returns
+    -------
+    function of float
+        From the factor to the displacement, m.
 
     Raises
     ------

@@ -138,6 +138,10 @@ def infer_twist(
     progress : callable
         Called with the number of finished runs and the total.
 
+    Returns
+    -------
+    TwistEstimate
+
     Raises
     ------
     ParameterError
