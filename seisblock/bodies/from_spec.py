@@ -47,7 +47,7 @@ def friction_from_spec(spec: BodySpec, options: Mapping[str, Any]) -> dict[str, 
     values = spec.parameters
     if "mu" in values or "surface" in values:
         if "mu" in values and "surface" in values:
-            raise BodyError("{source}: give mu or surface, not both", source=spec.source)
+            raise BodyError("{source}: `mu` and `surface` exclude each other: give only one of them", source=spec.source)
         contact_surface = surface(values["surface"]) if "surface" in values else None
         mu, kinetic = (values["mu"], None) if contact_surface is None else (contact_surface.mu, contact_surface.mu_kinetic)
     else:
@@ -55,7 +55,7 @@ def friction_from_spec(spec: BodySpec, options: Mapping[str, Any]) -> dict[str, 
         if mu is None:
             mu, kinetic = options.get("mu"), options.get("mu_kinetic")
     if mu is None:
-        raise BodyError("{source}: friction required: give mu (static coefficient)", source=spec.source)
+        raise BodyError("{source}: friction required: give `mu` (static coefficient)", source=spec.source)
     return {"mu": mu, "mu_kinetic": values.get("mu_kinetic", kinetic)}
 
 

@@ -19,6 +19,13 @@ NAME_KEYS = ("name", "code", "pair")
 MIN_TYPO_LENGTH, TWO_TYPO_LENGTH = 3, 8
 """Shortest name, letters, for which one typing error, and two errors, are tolerated."""
 
+RELATED_OPTIONS = (
+    ("--body", "--bodies", "--block", "--stones", "--cemetery"),
+    ("--out", "--output", "--directory"),
+    ("--runs", "--samples", "--perturb"),
+)
+"""Options of different commands for the same thing: one that a command lacks suggests the one that it has."""
+
 MIN_PREFIX_LENGTH = 4
 """Shortest name, letters, that matches a longer word beginning with it (``rocking``: ``rock``)."""
 
@@ -100,7 +107,14 @@ def suggest_options(command: click.Command, ctx: click.Context) -> Iterator[None
         names = [
             name for parameter in command.get_params(ctx) for name in (*parameter.opts, *parameter.secondary_opts) if name.startswith("--")
         ]
-        raise click.UsageError(did_you_mean(error.message, closest_name(error.option_name, names)), ctx) from None
+        suggestion = closest_name(error.option_name, names) or _related_option(error.option_name, names)
+        raise click.UsageError(did_you_mean(error.message, suggestion), ctx) from None
+
+
+def _related_option(name: str, available: Collection[str]) -> str | None:
+    """Return the available option for the same thing as another command's option, None without one."""
+    related = next((group for group in RELATED_OPTIONS if name in group), ())
+    return next((option for option in related if option in available), None)
 
 
 class SuggestingChoice(click.Choice[str]):

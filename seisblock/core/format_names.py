@@ -8,7 +8,7 @@ FORMAT_FOLDER = Path(__file__).parents[1] / "readers" / "formats"
 
 
 def format_names() -> list[str]:
-    """Return the names accepted as the format of a record, without aliases; ``OBSPY`` stands for ``OBSPY:`` and a name of obspy.
+    """Return the names accepted as the format of a record, without aliases; ``OBSPY`` stands for ``OBSPY:`` and a name of ObsPy.
 
     Examples
     --------

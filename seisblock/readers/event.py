@@ -81,7 +81,7 @@ def load_events_beside(files: Sequence[RawFile]) -> EventsBeside | None:
 
 
 def load_event(event: Any) -> EventSource:
-    """Return the earthquakes in a QuakeML or JSON file, or of an obspy Event or Catalog.
+    """Return the earthquakes in a QuakeML or JSON file, or of an ObsPy Event or Catalog.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def load_quakeml(name: str, content: bytes) -> EventSource:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             catalog = obspy.read_events(io.BytesIO(content), format="QUAKEML")
-    except Exception as error:  # obspy's readers raise bare Exceptions
+    except Exception as error:  # ObsPy's readers raise bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
         raise RecordFormatError("{name}: neither QuakeML nor a JSON file of an event ({why})", name=name, why=reason) from error
     return _from_catalog(name, catalog)

@@ -92,7 +92,7 @@ class DataCenter:
 
         try:
             return _repeat(connect, self._retries)
-        except Exception as error:  # obspy raises all kinds of errors for unusual answers
+        except Exception as error:  # ObsPy raises all kinds of errors for unusual answers
             message = "no FDSN service responds at {name}: check the network connection and the name of the data center"
             raise RecordError(message, name=self.name) from error
 
@@ -220,7 +220,7 @@ def _file_of(ask: Callable[..., Any], **query: Any) -> bytes:
 
 
 def _preferred_sensor(network: str, site: Any, patterns: Sequence[str]) -> Sensor | None:
-    """Return the sensor of an obspy station that comes first: complete, by the order of the patterns, by the location code."""
+    """Return the sensor of an ObsPy station that comes first: complete, by the order of the patterns, by the location code."""
     groups: dict[tuple[str, str], list[str]] = {}
     for channel in site:
         codes = groups.setdefault((channel.location_code.replace("-", ""), channel.code[:2]), [])
@@ -238,7 +238,7 @@ def _preferred_sensor(network: str, site: Any, patterns: Sequence[str]) -> Senso
 
 
 def _status_of(error: BaseException) -> int | None:
-    """Return the HTTP status code of an error of obspy."""
+    """Return the HTTP status code of an error of ObsPy."""
     status = getattr(error, "status_code", None)
     match = _STATUS.search(str(error))
     return status or (int(match[1]) if match else None)

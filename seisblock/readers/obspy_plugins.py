@@ -36,7 +36,7 @@ def _is_format(file_format: Format, filename: _Source) -> bool:
 
 
 def _read_stream(file_format: Format, filename: _Source, **_: Any) -> Any:
-    """Return an obspy Stream, m/s^2, of a file, without removal of an offset; start 1970-01-01 if the format has no time.
+    """Return an ObsPy Stream, m/s^2, of a file, without removal of an offset; start 1970-01-01 if the format has no time.
 
     Raises
     ------

@@ -56,13 +56,13 @@ def read(
 
     Parameters
     ----------
-    source : path, sequence of paths, or obspy Stream or Trace
+    source : path, sequence of paths, or ObsPy Stream or Trace
         File of any registered format, or name of a bundled sample. One component file of a set, as of K-NET, includes the other
         components in the same folder. Several paths are read as ONE record; of a folder, `station` selects one. A Stream is read as by
         :meth:`~seisblock.records.Record.from_obspy`.
     format : str or None
         Name of a format, see :func:`~seisblock.core.format_names.format_names`, as ``JMA-CSV`` or ``AT2``, or ``OBSPY:`` followed by a
-        format of obspy. None detects the format from the content.
+        format of ObsPy. None detects the format from the content.
     units : {"gal", "m/s2", "mm/s2", "g", "mg"} or None
         Unit of files that do not state it.
     dt : float or None, s
@@ -73,9 +73,9 @@ def read(
         Sensor of a KiK-net station; the surface by default.
     location : str or None
         Sensor of a station with several: location code, ``--`` for the empty one, or with the first letters of the channels, ``00.HN``.
-    inventory : path, obspy Inventory or None
+    inventory : path, ObsPy Inventory or None
         StationXML with the instrument response of counts; None uses a StationXML beside the file or in the archive.
-    event : path, obspy Event or None
+    event : path, ObsPy Event or None
         QuakeML or JSON file with the earthquake; None uses a QuakeML beside a miniSEED or SAC file, if its origin time matches.
     differentiate : bool
         Whether velocities of a seismometer are differentiated; they are rejected otherwise.
@@ -162,6 +162,11 @@ def read_all(
         In any order; records are in the order of their first files. A file without companions among the sources is read as by `read`.
     format, units, dt, station, level, location, inventory, event, differentiate, response
         As for `read`.
+
+    Returns
+    -------
+    list of Record
+        In the order of the files.
 
     Raises
     ------

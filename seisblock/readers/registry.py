@@ -67,7 +67,7 @@ class Format:
     options : tuple of str
         Read options passed to `parse`: those that a file of this format may lack.
     plugin : bool
-        Whether obspy reads the format by a plug-in of this package; its name there is `obspy_name`.
+        Whether ObsPy reads the format by a plug-in of this package; its name there is `obspy_name`.
     synchronous : bool
         Whether components have a common start but may differ in length.
     aligned : bool
@@ -100,7 +100,7 @@ class Format:
 
     @property
     def obspy_name(self) -> str:
-        """Name as a waveform format of obspy."""
+        """Name as a waveform format of ObsPy."""
         return self.name.replace("-", "")
 
 
@@ -133,7 +133,7 @@ def format_titles() -> list[Message]:
 
 
 def find_format(name: str) -> Format:
-    """Return a format by its name or an alias, in any case; that of obspy for other names.
+    """Return a format by its name or an alias, in any case; that of ObsPy for other names.
 
     Examples
     --------
@@ -154,7 +154,7 @@ def match_head(head: bytes) -> Format | None:
 
 
 def detect_format(blob: RawFile) -> Format:
-    """Return the format of a file by its content; that of obspy if no other matches."""
+    """Return the format of a file by its content; that of ObsPy if no other matches."""
     file_format = match_head(blob.content[:HEAD_BYTES])
     if file_format is not None:
         return file_format

@@ -41,7 +41,7 @@ class Quantity(NamedTuple):
 
 @dataclass(frozen=True)
 class Inventories:
-    """StationXML files, or an obspy inventory, from which responses are taken.
+    """StationXML files, or an ObsPy inventory, from which responses are taken.
 
     `is_requested` is True for files that the user named, False for those found beside the record.
     """
@@ -51,7 +51,7 @@ class Inventories:
     is_requested: bool = False
 
     def load(self, network: str, station: str) -> Any:
-        """Return the obspy inventory of the files that mention a station; None if there is none."""
+        """Return the ObsPy inventory of the files that mention a station; None if there is none."""
         if self.inventory is not None:
             return self.inventory
         result = None
@@ -69,7 +69,7 @@ def is_station_xml(head: bytes) -> bool:
 
 
 def read_station_xml(file: RawFile) -> Any:
-    """Return the obspy inventory in a StationXML file.
+    """Return the ObsPy inventory in a StationXML file.
 
     Raises
     ------
@@ -84,9 +84,9 @@ def read_station_xml(file: RawFile) -> Any:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return obspy.read_inventory(io.BytesIO(file.data), format="STATIONXML")
-    except Exception as error:  # obspy's readers raise bare Exceptions
+    except Exception as error:  # ObsPy's readers raise bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
-        raise RecordFormatError("{name}: obspy cannot read the StationXML ({why})", name=file.name, why=reason) from error
+        raise RecordFormatError("{name}: ObsPy cannot read the StationXML ({why})", name=file.name, why=reason) from error
 
 
 def parse_input_units(text: str) -> Quantity | None:
@@ -107,7 +107,7 @@ def parse_input_units(text: str) -> Quantity | None:
 
 
 def find_channel(inventory: Any, trace: Any) -> Any:
-    """Return the obspy channel of a trace in an inventory, of the epoch that covers it; None if the inventory has no such channel.
+    """Return the ObsPy channel of a trace in an inventory, of the epoch that covers it; None if the inventory has no such channel.
 
     Raises
     ------
@@ -153,7 +153,7 @@ def _channel_values(channel: Any) -> tuple[object, ...]:
 
 
 def input_quantity(channel: Any, name: str) -> Quantity:
-    """Return the quantity that the instrument of an obspy channel measures.
+    """Return the quantity that the instrument of an ObsPy channel measures.
 
     Raises
     ------
@@ -215,9 +215,9 @@ def remove_full_response(trace: Any, channel: Any, name: str) -> tuple[FloatArra
             # a water level would hide a frequency at which the instrument records nothing; the band excludes it
             # instead
             copy.remove_response(output="ACC", pre_filt=(BAND_TAPER * low_hz, low_hz, high_hz, end_hz), water_level=None)
-    except Exception as error:  # obspy raises bare Exceptions
+    except Exception as error:  # ObsPy raises bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
-        raise UnitError("{channel}: obspy cannot remove the response ({why})", channel=name, why=reason) from error
+        raise UnitError("{channel}: ObsPy cannot remove the response ({why})", channel=name, why=reason) from error
     entry = lazy_gettext(
         "{channel}: full response removed between {low:.3g} and {high:.3g} Hz (mean removed, 5 % taper at both ends)",
         channel=name,
@@ -245,7 +245,7 @@ MAX_TILT_DEG = 5.0
 
 
 def channel_orientation(channel: Any, name: str) -> Orientation | None:
-    """Return the orientation of an obspy channel by azimuth and dip; None if the StationXML does not state it.
+    """Return the orientation of an ObsPy channel by azimuth and dip; None if the StationXML does not state it.
 
     Raises
     ------

@@ -40,10 +40,10 @@ def record_from_obspy(
 ) -> Record:
     """Return the record of an ObsPy Stream or Trace; see :meth:`seisblock.records.Record.from_obspy`."""
     if not is_obspy(stream):
-        raise KindError("expected an obspy Stream or Trace, found {found}", found=checks.type_name(stream))
+        raise KindError("expected an ObsPy Stream or Trace, found {found}", found=checks.type_name(stream))
     traces = [stream] if type(stream).__name__ == "Trace" else list(stream)
     if not traces:
-        raise KindError("expected an obspy Stream with traces, found an empty one")
+        raise KindError("expected an ObsPy Stream with traces, found an empty one")
     from obspy import Stream
 
     # copies: merging and scaling change traces in place
@@ -53,7 +53,7 @@ def record_from_obspy(
     inventories = Inventories() if inventory is None else Inventories(inventory=inventory, is_requested=True)
     options = WaveformOptions(units, inventories, differentiate, response)
     parts = [_to_part(trace, options) for trace in merged]
-    record = assemble("obspy stream", parts, station=station, location=location)
+    record = assemble("ObsPy stream", parts, station=station, location=location)
     return run_qc(apply_event(record, None if event is None else load_event(event)))
 
 
@@ -62,7 +62,7 @@ def _to_part(trace: Any, options: WaveformOptions) -> Record:
     header = trace.stats.get(STATS_KEY)
     if header is not None:
         component = Component(header["code"], trace.data, header["azimuth_deg"])
-        part = trace_to_record("obspy stream", trace, "STREAM", options, physical=Quantity(ACCELERATION, 1.0))
+        part = trace_to_record("ObsPy stream", trace, "STREAM", options, physical=Quantity(ACCELERATION, 1.0))
         return replace(
             part,
             components=(component,),
@@ -74,7 +74,7 @@ def _to_part(trace: Any, options: WaveformOptions) -> Record:
     if physical is None and attached is not None and not options.inventory.is_requested and options.units is None:
         # the response attached by a FDSN client has no azimuth and dip
         options = replace(options, inventory=Inventories(inventory=_attached_inventory(trace), is_requested=True))
-    return trace_to_record("obspy stream", trace, "STREAM", options, physical=physical)
+    return trace_to_record("ObsPy stream", trace, "STREAM", options, physical=physical)
 
 
 def _processed_quantity(trace: Any) -> Quantity | None:

@@ -110,7 +110,7 @@ def read_waveform_file(blob: RawFile, waveform: str, options: WaveformOptions, f
         traces, warning_texts = read_traces(blob.name, path, waveform)
     flags = tuple(dict.fromkeys((*obspy_flags(warning_texts), *(file_flags(blob.data, traces) if file_flags else ()))))
     traces.reverse()
-    # popped one by one, so that the samples of obspy are freed during conversion
+    # popped one by one, so that the samples of ObsPy are freed during conversion
     return [trace_to_record(blob.name, traces.pop(), waveform, options, flags) for _ in range(len(traces))]
 
 
@@ -131,17 +131,17 @@ def read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[s
             warnings.simplefilter("always", UserWarning)
             # merge joins contiguous pieces; gaps become masked samples, which are refused later
             stream = obspy.read(str(path), format=waveform).merge()
-    except Exception as error:  # obspy's readers raise bare Exceptions
+    except Exception as error:  # ObsPy's readers raise bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
-        raise RecordFormatError("{name}: obspy cannot read the file as {format} ({why})", name=name, format=waveform, why=reason) from error
+        raise RecordFormatError("{name}: ObsPy cannot read the file as {format} ({why})", name=name, format=waveform, why=reason) from error
     if not stream:
-        raise RecordFormatError("{name}: no samples found by obspy", name=name)
+        raise RecordFormatError("{name}: no samples found by ObsPy", name=name)
     return list(stream), [str(warning.message) for warning in warning_list if issubclass(warning.category, UserWarning)]
 
 
 def obspy_flags(warning_texts: Sequence[str]) -> list[QCFlag]:
     """Return flags for the warnings of ObsPy (integrity checks, incomplete last blocks)."""
-    return [qc_flag("obspy warning: {warning}", "header", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH]) for text in warning_texts]
+    return [qc_flag("ObsPy warning: {warning}", "header", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH]) for text in warning_texts]
 
 
 def trace_to_record(
@@ -199,7 +199,7 @@ def trace_to_record(
         (Component(direction.code, values, direction.azimuth_deg),),
         float(stats.delta),
         station=stats.station,
-        # 1970-01-01 is obspy's default for files without a time
+        # 1970-01-01 is ObsPy's default for files without a time
         start=start,
         source=name,
         format=f"OBSPY:{waveform}",
@@ -372,7 +372,7 @@ def _direction(trace: Any, channel: Any) -> tuple[Direction, tuple[str, ...], bo
 
 
 def _site(channel: Any) -> dict[str, object]:
-    """Return the coordinates of an obspy channel as metadata."""
+    """Return the coordinates of an ObsPy channel as metadata."""
     latitude, longitude, height = channel.latitude, channel.longitude, channel.elevation
     return {
         "station_latitude_deg": None if latitude is None else float(latitude),

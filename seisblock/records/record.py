@@ -164,6 +164,10 @@ class Record(PlotMixin):
         start : datetime or None
             Time of the first sample; UTC if it has no time zone.
 
+        Returns
+        -------
+        Record
+
         Raises
         ------
         RecordError
@@ -198,10 +202,14 @@ class Record(PlotMixin):
             samples of an accelerometer without a response, and samples after ``remove_response(output="ACC")``, are taken in m/s^2.
         inventory : obspy.Inventory or None
             Responses; these are removed, and azimuths, dips and coordinates taken.
-        event : obspy Event, Catalog, path or None
+        event : ObsPy Event, Catalog, path or None
             Earthquake of the record.
         **options
             ``units``, ``station``, ``location``, ``differentiate`` and ``response``, as for :func:`~seisblock.readers.read`.
+
+        Returns
+        -------
+        Record
 
         Raises
         ------

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from seisblock.cli import COMMANDS, locale, main
 from seisblock.cli.command import SHARED_ESSENTIAL
 from seisblock.core import i18n
-from seisblock.output.text.tables import Part, details, shortened_answer, whole_answer
+from seisblock.output.text.tables import Part, details, shortened_answer, styled_line, whole_answer
 from seisblock.output.text.wrap import display_width
 from tests.i18n.english import english_words
 from tests.lengths import all_but_slow
@@ -189,6 +189,13 @@ def test_whole_and_shortened_answer_of_parts():
     assert list(whole_answer(parts)) == ["verdict", "long", "table", "modes", "end"]
     assert [str(part) for part in shortened_answer(parts)] == ["verdict", "row", "end", "more: --details"]
     assert list(shortened_answer(["verdict", "end"])) == ["verdict", "end"]
+
+
+def test_blank_lines_separate_parts_and_end_no_answer():
+    """A blank line between two parts stays, the last one is dropped, also before the hint to --details."""
+    parts = ["verdict", styled_line(), "row", Part((styled_line("all"), styled_line()), (styled_line(),))]
+    assert [str(part) for part in whole_answer(parts)] == ["verdict", "", "row", "all"]
+    assert [str(part) for part in shortened_answer(parts)] == ["verdict", "", "row", "more: --details"]
 
 
 @pytest.mark.parametrize("language", ["en", "ja"])

@@ -92,7 +92,7 @@ def test_fragility_writes_csv_figure_pelicun_and_openquake(folder, tmp_path):
         (("FOLDER", *SHELF, "--limit", "slip=5cm"), "does not compute the limit 'slip=0.05m'"),
         (("FOLDER", *SHELF, "--pelicun", "a.txt"), "must end in .csv"),
         (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are the same file"),
-        (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "friction required: give mu"),
+        (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "friction required: give --mu (static coefficient)"),
     ],
 )
 def test_fragility_rejects_invalid_requests(words, says, folder):
@@ -111,7 +111,7 @@ def test_fragility_skips_and_reports_unreadable_file(folder, tmp_path):
 
 
 def test_fragility_translates_bodies_and_limits(folder):
-    """In the first line and in warnings, as in the table; a name of somebody's own stays, and commands no terminal."""
+    """Names appear in the first line, in warnings and in the table, without control characters."""
     answer = CliRunner().invoke(main, ["--lang", "ja", "fragility", str(folder), *SHELF[4:], "--block", "gravestone", "--quiet"])
     assert answer.exit_code == 0, answer.stderr
     assert answer.stdout.startswith("墓石、転倒：")

@@ -52,7 +52,7 @@ def answer(*arguments):
 
 
 def test_jump_without_record_uses_sample():
-    """Without RECORD the sample answers, and the first line says so."""
+    """Without RECORD the bundled sample is used, as the first line states."""
     result = run()
     assert result.exit_code == 0
     assert result.stdout.startswith(f"{SAMPLE_NOTE}\n")
@@ -142,7 +142,7 @@ def test_jump_totals_equal_sum_of_chains():
 
 
 def test_jump_landing_friction_limits_demand():
-    """--landing friction needs no more friction than there is, and says so in the same keys."""
+    """--landing friction needs no more friction than available, in the same keys."""
     (result,) = answer("--component", "EW", "--landing", "friction")["results"]
     assert result["landing"] == "friction"
     assert result["friction_needed_at_landing"] <= 0.17 + 1e-9
@@ -168,7 +168,7 @@ def test_jump_states_whether_foot_left_mortise():
     """After the note of the record stands whether the feet left their mortises, and the place; a body that stays has not moved."""
     remaining, left = (run("--tenon", tenon, "--component", "EW", "--details").stdout for tenon in ("2cm", "1mm"))
     assert " ".join(remaining.split()).startswith(
-        f"{SAMPLE_NOTE} EW: the feet rise at most 1.46 cm, less than the tenons of 2.00 cm: stays in the mortises"
+        f"{SAMPLE_NOTE} EW: the feet rise at most 1.46 cm, less than the tenons of 2.00 cm: stays in the mortises, without"
     )
     assert " ".join(left.split()).startswith(f"{SAMPLE_NOTE} EW: leaves the mortises, the feet rise")
     assert "the tenon stays in the mortise" in " ".join(remaining.split())

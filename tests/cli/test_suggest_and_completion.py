@@ -28,6 +28,9 @@ MISSPELT = (
     (("cite", "slid"), "slide"),
     (("--verson",), "--version"),
     (("overturn",), "overturn-rate"),
+    (("batch", "--body", "gravestone", "--out", "x.csv"), "--bodies"),
+    (("stack", "--block", "lantern"), "--stones"),
+    (("overturn-rate", "--bodies", "aoyama.csv"), "--cemetery"),
 )
 
 LIKE_NOTHING = (
@@ -142,7 +145,7 @@ def test_completion_offers_all_azimuths_where_supported():
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_describes_every_parameter(command):
-    """F6: no argument or option stands without a word, and a record stands with what is done to it."""
+    """F6: every argument and option has help, and every record option its processing step."""
     context = click.Context(main.get_command(click.Context(main), command))
     rows = [param.get_help_record(context) for param in context.command.get_params(context) if not getattr(param, "hidden", False)]
     assert all(meaning.strip() for _, meaning in rows), rows

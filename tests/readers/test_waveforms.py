@@ -22,7 +22,7 @@ from tests.readers.stations import COUNTS_PER_UNIT, DT, START, channel, counts, 
 
 
 def test_read_miniseed_removes_sensitivity_as_obspy_does(tmp_path):
-    """One file stands for its siblings; obspy's own remove_sensitivity is the reference, to the bit."""
+    """One file stands for its siblings; ObsPy's own remove_sensitivity is the reference, to the bit."""
     north, *_ = write_station(tmp_path, stages=True)
     record = read(north)
     assert (record.network, record.station, record.location) == ("XX", "TST", "00")
@@ -234,7 +234,7 @@ def test_inventory_that_is_no_stationxml_is_rejected(tmp_path):
         read(path, inventory=tmp_path / "abc.xml")
     text = (tmp_path / "XX.TST.xml").read_text()
     (tmp_path / "cut.xml").write_text(text[: len(text) // 2])
-    with pytest.raises(RecordFormatError, match="obspy cannot read the StationXML"):
+    with pytest.raises(RecordFormatError, match="ObsPy cannot read the StationXML"):
         read(path, inventory=tmp_path / "cut.xml")
 
 
@@ -311,7 +311,7 @@ def test_round_trip_through_obspy_is_exact():
 
 
 def test_from_obspy_requires_a_response_for_counts():
-    """Integers are counts; an inventory, an attached response or obspy's own removal gives their unit; the stream stays as it was."""
+    """Integers are counts; an inventory, an attached response or ObsPy's own removal gives their unit; the stream stays as it was."""
     stream = obspy.Stream([trace(f"HN{c}") for c in "NEZ"])
     with pytest.raises(UnitError, match="contains counts"):
         Record.from_obspy(stream)
@@ -330,7 +330,7 @@ def test_from_obspy_requires_a_response_for_counts():
 
 
 def test_from_obspy_reads_the_processing_of_obspy():
-    """remove_response says what it gave: an acceleration of a seismometer is one; a velocity needs consent; a displacement is refused."""
+    """Output of remove_response: acceleration is accepted, velocity needs consent, displacement is rejected."""
     seismometer = inventory(channel("HHN", units="M/S", stages=True))
     stream = obspy.Stream([trace("HHN")])
     acceleration = stream.copy().remove_response(seismometer, output="ACC")
@@ -346,7 +346,7 @@ def test_from_obspy_reads_the_processing_of_obspy():
 
 def test_from_obspy_rejects_other_objects_and_gaps():
     """Another type, an empty stream, a gap."""
-    with pytest.raises(KindError, match="expected an obspy Stream or Trace, found"):
+    with pytest.raises(KindError, match="expected an ObsPy Stream or Trace, found"):
         Record.from_obspy([1.0, 2.0])
     with pytest.raises(KindError, match="empty"):
         Record.from_obspy(obspy.Stream())
@@ -367,7 +367,7 @@ def _quakeml(path, *origins):
 
 
 def test_event_gives_magnitude_origin_and_distance(tmp_path):
-    """QuakeML, an obspy Event, flat JSON and the feature of the USGS; one of two events by its time."""
+    """QuakeML, an ObsPy Event, flat JSON and the feature of the USGS; one of two events by its time."""
     path, *_ = write_station(tmp_path)
     catalog = _quakeml(tmp_path / "event.qml", START - 8)
     flat = {"time": str(START - 8), "latitude": 35.9, "longitude": 139.0, "depth_km": 12.0, "magnitude": 6.2}

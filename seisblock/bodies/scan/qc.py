@@ -64,7 +64,7 @@ def scan_qc_messages(scan: Scan) -> Iterator[Message]:
     if not scan.body.inset_m:
         yield lazy_gettext(
             "sharp edges are unconservative: scans of two granite rocks gave angles 1.4 to 2.5 times those that explain their "
-            "overturning on a shaking table; give an inset, or estimate it with fit from observed overturning"
+            "overturning on a shaking table; give `inset`, or estimate it by a fit to observed overturning"
         )
 
 

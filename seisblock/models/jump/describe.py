@@ -215,7 +215,7 @@ def describe(response: Response[JumpOutcome], *, gal: bool = True) -> str:
     if outcome.outcome not in COMPLETE:
         text = N_("{name}: {outcome} in chain {count} of motion, displacement {moved}.")
     elif leaves_mortise(response) is False:
-        text = N_("{name}: the feet rise at most {foot}, less than the tenons of {tenon}: stays in the mortises where it stood.")
+        text = N_("{name}: the feet rise at most {foot}, less than the tenons of {tenon}: stays in the mortises, without displacement.")
     elif jumps == 0:
         text = N_("{name}: rocks without jumping, {count} chains of motion.")
     elif leaves_mortise(response):

@@ -45,7 +45,7 @@ def chain_warnings(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tupl
     if needs and math.isinf(max(needs)):
         messages.append(
             lazy_gettext(
-                "{name}: {count} of {landed} landings stop the foot by a tensile ground force; with landing rule friction the foot slips",
+                "{name}: {count} of {landed} landings stop the foot by a tensile ground force; with `landing` friction the foot slips",
                 name=name,
                 count=sum(math.isinf(need) for need in needs),
                 landed=len(landings),
@@ -55,7 +55,7 @@ def chain_warnings(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tupl
         messages.append(
             lazy_gettext(
                 "{name}: {count} of {landed} landings require friction of up to {most:.2f} to stop the foot, more than mu {mu:g}; with "
-                "landing rule friction the foot slips",
+                "`landing` friction the foot slips",
                 name=name,
                 count=len(needs),
                 landed=len(landings),
@@ -71,8 +71,8 @@ def chain_warnings(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tupl
         energy_before, energy_after = worst_landing.landing_energy_j or (0.0, 0.0)
         messages.append(
             lazy_gettext(
-                "{name}: {count} of {landed} landings increase the energy (at {time:.3f} s from {before:.3g} J to {after:.3g} J); landing "
-                "rule friction never does",
+                "{name}: {count} of {landed} landings increase the energy (at {time:.3f} s from {before:.3g} J to {after:.3g} J); "
+                "`landing` friction never does",
                 name=name,
                 count=len(energy_gains),
                 landed=len(landings),

@@ -24,7 +24,7 @@ def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
     if "mu" not in contact_values:
         contact_values |= {key: values[key] for key in ("mu", "mu_kinetic") if values.get(key) is not None}
     if "mu" not in contact_values:
-        raise BodyError("{source}: friction required: give mu (static coefficient)", source=spec.source)
+        raise BodyError("{source}: friction required: give `mu` (static coefficient)", source=spec.source)
     block = two_layer_from_table(spec.description, spec.parameters.get("side", "short"))
     options = {
         **without_friction(values),

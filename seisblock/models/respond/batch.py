@@ -88,7 +88,7 @@ class RespondBatchResult(DisplayMixin):
 def no_answer(count: int, runs: int, impacts: int) -> SolverError:
     """Return the error for `count` of `runs` runs abandoned after at least `impacts` impacts."""
     return SolverError(
-        "{count} of {runs} runs have no result: still bouncing after {impacts} impacts; use a smaller restitution",
+        "{count} of {runs} runs have no result: still bouncing after {impacts} impacts; use a smaller `restitution`",
         count=count,
         runs=runs,
         impacts=impacts,

@@ -76,7 +76,7 @@ def run_warnings(run: Run, params: RespondParams, end_s: float, settle_s: float)
     impacts, jams, lowered_count = (int(run.final[state]) for state in (constants.IMPACTS, constants.JAMS, constants.RATIO_LOWERED))
     messages: list[str] = []
     if run.mode == constants.GAVE_UP:
-        text = N_("{name}: run stopped at {time:.3f} s, still bouncing after {impacts} impacts; use a smaller restitution")
+        text = N_("{name}: run stopped at {time:.3f} s, still bouncing after {impacts} impacts; use a smaller `restitution`")
         messages.append(lazy_gettext(text, name=name, time=end_s, impacts=impacts))
     elif run.mode != constants.OVERTURNED and not run.ends_at_rest:
         text = N_("{name}: still in motion {time:g} s after the record; results refer to that instant")

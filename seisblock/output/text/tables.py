@@ -163,21 +163,27 @@ def details(*full: Any) -> Part:
 
 def whole_answer(parts: Iterable[Any]) -> Iterator[Any]:
     """Yield an answer in full."""
-    for part in parts:
-        yield from part.full if isinstance(part, Part) else [part]
+    yield from _without_last_blank_lines(line for part in parts for line in (part.full if isinstance(part, Part) else [part]))
 
 
 def shortened_answer(parts: Iterable[Any]) -> Iterator[Any]:
     """Yield an answer without its details, and the option that prints them where there are any."""
-    has_details = False
-    for part in parts:
-        if isinstance(part, Part):
-            has_details = True
-            yield from part.short
-        else:
-            yield part
-    if has_details:
+    answer = list(parts)
+    yield from _without_last_blank_lines(line for part in answer for line in (part.short if isinstance(part, Part) else [part]))
+    if any(isinstance(part, Part) for part in answer):
         yield styled_line(gettext("more: --details"), "dim")
+
+
+def _without_last_blank_lines(lines: Iterable[Any]) -> Iterator[Any]:
+    """Yield lines and tables; blank lines separate parts and do not end an answer."""
+    blank_lines: list[Any] = []
+    for line in lines:
+        if isinstance(line, Text) and not line.plain:
+            blank_lines.append(line)
+            continue
+        yield from blank_lines
+        blank_lines.clear()
+        yield line
 
 
 def format_number(value: Any, digits: int = 4) -> str:

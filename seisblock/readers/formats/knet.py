@@ -24,7 +24,7 @@ KIK_FORMAT = "KIKNET"
 TRIGGER_DELAY = timedelta(seconds=15)
 """Delay of the header's record time after the first sample."""
 
-# header labels as expected by obspy; the part after | may vary
+# header labels as expected by ObsPy; the part after | may vary
 _EVENT_LABELS = ("Origin Time", "Lat.", "Long.", "Depth.| (km)", "Mag.")
 _STATION_LABELS = ("Station Code", "Station Lat.", "Station Lo|ng.", "Station Height|(m)")
 _RECORD_LABELS = ("Record Time", "Sampling Freq|(Hz)", "Duration Time|(s)", "Dir.", "Scale Factor", "Max|. Acc. (gal)")
@@ -114,7 +114,7 @@ def _parse_direction(name: str, text: str) -> tuple[str, str]:
 
 
 def _decode_counts(name: str, values: Sequence[str], lines: Sequence[str]) -> FloatArray:
-    """Return the counts decoded by obspy."""
+    """Return the counts decoded by ObsPy."""
     body = lines[len(_LABELS) :]
     if not any(line.strip() for line in body):
         raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=len(_LABELS))
@@ -125,19 +125,19 @@ def _decode_counts(name: str, values: Sequence[str], lines: Sequence[str]) -> Fl
         counts = np.asarray(obspy.read(io.BytesIO(text.encode("ascii", "replace")), format="KNET")[0].data, dtype=np.float64)
     except (ValueError, IndexError, TypeError) as error:
         _raise_bad_line(name, body)
-        raise RecordFormatError("{name}: obspy cannot decode the K-NET file ({error})", name=name, error=error) from error
+        raise RecordFormatError("{name}: ObsPy cannot decode the K-NET file ({error})", name=name, error=error) from error
     if not (np.abs(counts) < MAX_COUNT).all():
         _raise_bad_line(name, body)
     return counts
 
 
 def _canonical_header(values: Sequence[str]) -> list[str]:
-    """Return the header with optional fields normalised, so that obspy accepts empty or unusual ones."""
+    """Return the header with optional fields normalised, so that ObsPy accepts empty or unusual ones."""
     fields = list(values)
     for index in (EVENT_LAT, EVENT_LON, DEPTH, MAGNITUDE, LAT, LON, HEIGHT, DURATION, MAXIMUM):
         fields[index] = values[index] if parse_number(values[index]) is not None else "nan"
     for index in (ORIGIN, CORRECTION):
-        fields[index] = values[RECORD_TIME]  # unused here, but obspy requires a time
+        fields[index] = values[RECORD_TIME]  # unused here, but ObsPy requires a time
     fields[STATION] = "STATION"
     fields[MEMO] = ""
     return [f"{label.replace('|', ''):<18}{value}" for label, value in zip(_LABELS, fields, strict=True)]
@@ -242,7 +242,7 @@ FORMAT = register(
         matches=is_knet,
         proves=("count", "peak", "unit", "sign", "instrument"),
         aliases=(KIK_FORMAT, "K-NET", "KIK-NET"),
-        plugin=False,  # obspy reads it itself
+        plugin=False,  # ObsPy reads it itself
         file_set=knet_file_set,
     )
 )

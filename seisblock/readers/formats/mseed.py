@@ -33,7 +33,7 @@ def read_mseed(blob: RawFile, **options: Any) -> list[Record]:
 
 
 def _flag_partial_block(data: bytes, traces: Sequence[Any]) -> Sequence[QCFlag]:
-    """Return a flag if a file ends inside a block, which obspy ignores."""
+    """Return a flag if a file ends inside a block, which ObsPy ignores."""
     length = min(int(trace.stats.mseed.record_length) for trace in traces)
     message = "file ends inside a block of {length} bytes: probably truncated"
     return (qc_flag(message, "cut", length=length),) if len(data) % length else ()

@@ -27,7 +27,7 @@ from seisblock.readers.waveforms import WAVEFORM_OPTIONS, WaveformOptions, read_
 from seisblock.records import QCFlag, Record
 
 _CRASHING_FORMATS = {"GSE1", "GSE2"}
-"""Formats whose obspy decoder crashes (segmentation fault) on damaged files."""
+"""Formats whose ObsPy decoder crashes (segmentation fault) on damaged files."""
 
 _UNSAFE_FORMATS = _CRASHING_FORMATS | {"PICKLE"}
 """Formats that are never read: unpickling executes arbitrary code."""
@@ -50,15 +50,15 @@ def read_obspy(
     format: str | None = None,  # noqa: A002 - the read option
     **options: Any,
 ) -> list[Record]:
-    """Return the components in a file of any waveform format of obspy except PICKLE.
+    """Return the components in a file of any waveform format of ObsPy except PICKLE.
 
-    `units` is the unit of the samples as returned by obspy; the calibration factor ``stats.calib`` is not applied. `format` is ``OBSPY:``
-    and a format name of obspy, or that name alone; None and ``OBSPY`` try all formats.
+    `units` is the unit of the samples as returned by ObsPy; the calibration factor ``stats.calib`` is not applied. `format` is ``OBSPY:``
+    and a format name of ObsPy, or that name alone; None and ``OBSPY`` try all formats.
 
     Raises
     ------
     RecordFormatError
-        If obspy does not know the format or fails on the file.
+        If ObsPy does not know the format or fails on the file.
     UnitError
         If the unit is missing or unknown.
     """
@@ -72,7 +72,7 @@ def read_obspy(
 
 
 def _check_format(name: str, waveform: str) -> None:
-    """Raise for a format that obspy does not have, or whose decoder is unsafe."""
+    """Raise for a format that ObsPy does not have, or whose decoder is unsafe."""
     from obspy.core.util.base import ENTRY_POINTS
 
     if waveform in _CRASHING_FORMATS:
@@ -109,7 +109,7 @@ def _unrecognized_error(blob: RawFile) -> RecordFormatError:
     """Return the error of a file of unknown format; quotes the first line and locates a table below it."""
     if (companion := _companion_kind(blob.content[:HEAD_BYTES])) is not None:
         return RecordFormatError("{name}: {kind}, not a record: give the record", name=blob.name, kind=companion)
-    expected = lazy_gettext("{formats}, a plain table, an archive of these, or a waveform format of obspy", formats=format_titles())
+    expected = lazy_gettext("{formats}, a plain table, an archive of these, or a waveform format of ObsPy", formats=format_titles())
     try:
         lines = read_lines(blob)[:MAX_PREAMBLE_LINES]
     except RecordFormatError:
@@ -131,7 +131,7 @@ def _companion_kind(head: bytes) -> str | None:
 
 def _raise_unsupported(name: str, waveform: str) -> NoReturn:
     """Raise for a format whose decoder is unsafe."""
-    message = "{name}: format {format} not supported (the obspy decoder crashes on damaged files); convert the record to MSEED or SAC"
+    message = "{name}: format {format} not supported (the ObsPy decoder crashes on damaged files); convert the record to MSEED or SAC"
     raise RecordFormatError(message, name=name, format=waveform)
 
 
@@ -158,7 +158,7 @@ def _iter_sample_list_flags(text: str, read_count: int) -> Iterator[QCFlag]:
         if has_times and not _is_evenly_sampled(cells[::2]):
             yield qc_flag("{channel}: sample times are not evenly spaced", "clock", channel=fields[0])
     if total_count != read_count:
-        yield qc_flag("obspy read {read} of {promised} samples in the file", "count", promised=total_count, read=read_count)
+        yield qc_flag("ObsPy read {read} of {promised} samples in the file", "count", promised=total_count, read=read_count)
 
 
 def _is_evenly_sampled(times: Sequence[str]) -> bool:

@@ -122,4 +122,4 @@ def _margin_sentences(margin: Margin) -> Iterator[str]:
         yield gettext("Nearest change of the result at scale factor {factor:.3f}.", factor=margin.nearest_flip)
     first = next((window for window in margin.windows if window.overturned), None)
     if first is not None:
-        yield gettext("No overturning at the scale factors examined below {factor:.3f}.", factor=first.first)
+        yield gettext("Smallest scale factor to overturning: {factor:.3f} (of those examined).", factor=first.first)

@@ -94,7 +94,7 @@ def probability_sentence(probability: SpatialProbability, *, gal: bool = True) -
             most=twist["q95"],
         )
     left_out = left_out_versions(probability.no_answer, probability.runs)
-    return with_notes(gettext("{note}.", note=sentence), [] if left_out is None else [gettext("{note}.", note=left_out)])
+    return with_notes(gettext("{result}.", result=sentence), [] if left_out is None else [gettext("{note}.", note=left_out)])
 
 
 def variation_text(probability: SpatialProbability, body: Any) -> str:

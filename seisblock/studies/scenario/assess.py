@@ -209,7 +209,7 @@ def assess_scenario(
         counts = (results.fell[index].any(axis=2) & complete).sum(axis=1)
         runs = complete.sum(axis=1)
         if not runs.sum():
-            answers.append(ObjectRisk(body.name, failure=lazy_gettext("all runs were stopped: use a smaller restitution")))
+            answers.append(ObjectRisk(body.name, failure=lazy_gettext("all runs were stopped: use a smaller `restitution`")))
             continue
         fell = results.fell[index].any(axis=2)[complete]
         shift = results.shift_m[index].max(axis=2)[complete]

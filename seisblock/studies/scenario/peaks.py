@@ -119,6 +119,6 @@ def _suite_probability(
             progress(index + 1, len(pairs))
     complete |= fell
     if not complete.any():
-        raise ParameterError("all runs were stopped: use a smaller restitution")
+        raise ParameterError("all runs were stopped: use a smaller `restitution`")
     counts, runs = (fell & complete).sum(axis=1), complete.sum(axis=1)
     return SuiteProbability(len(pairs), int(runs.sum()), float(fell[complete].mean()), overturning_interval(counts, runs))
