@@ -24,7 +24,7 @@ FILE = "file"
 """Choice of an object by an uploaded file."""
 
 KIND_LABELS = {
-    "block": N_("own sizes: bare block"),
+    "block": N_("own sizes: rectangular block"),
     "furniture": N_("own sizes: furniture"),
     "statue": N_("own sizes: statue"),
     "gravestone": N_("own sizes: gravestone"),

@@ -63,7 +63,7 @@ def estimate_tables(
         )
         rows = [
             (
-                "0.5-3" if estimate.frequency_hz is None else f"{estimate.frequency_hz:.3g}",
+                gettext("0.5-3") if estimate.frequency_hz is None else f"{estimate.frequency_hz:.3g}",
                 acceleration_cell(estimate.pga_m_s2, gal=gal),
                 _format_interval(estimate.pga_interval_m_s2, acceleration_unit(gal=gal).size),
                 DASH if estimate.pgv_m_s is None else format_number(estimate.pgv_m_s / speed, 3),

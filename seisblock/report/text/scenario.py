@@ -69,7 +69,7 @@ def _table(results: Sequence[ObjectRisk]) -> Any:
         ]
         for result in results
     ]
-    caption = gettext("95 %: interval over the records, model error not included; moves: ends more than 1 cm away, or overturns")
+    caption = gettext("95 %: interval over the records, model error not included; moves: residual displacement above 1 cm, or overturning")
     return table("", header, rows, caption=caption)
 
 
