@@ -197,7 +197,7 @@ def test_japanese_spacing_beside_latin_letters(direction, sentence):
     """The same template takes an azimuth, whose name is Japanese, without a blank before it, and a component with one."""
     with use_locale("ja"):
         assert gettext("overturns to {side} at {time:.2f} s", side=direction_label(direction, 1.0), time=25.9) == sentence
-        assert gettext("{path} to {towards}", path="石", towards=direction_label(direction, 1.0)).endswith("へ石")
+        assert gettext("{path} to {towards}", path="石", towards=direction_label(direction, 1.0)).startswith("石（")
         assert gettext("{a} {b}", a="益城", b="宮園") == "益城 宮園", "blanks of a name, and between two values, stay"
 
 

@@ -110,7 +110,7 @@ def test_margin_rejects_invalid_scan(limit, step):
 
 
 def test_perturb_far_from_flip_is_certain():
-    """Where all or none of the runs overturn, the interval shows the sampling uncertainty."""
+    """The interval shows the sampling uncertainty where all or none of the runs overturn."""
     narrow = ParameterVariation(restitution=0.05, amplitude=0.05)
     sure = perturb(BLOCK, one_sine(4.5), 60, options=RockOptions(restitution=0.9), spread=narrow)
     assert (sure.overturned, sure.probability, sure.probability_interval[1]) == (60, 1.0, 1.0)

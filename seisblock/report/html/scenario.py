@@ -74,7 +74,8 @@ def _card(result: ObjectRisk) -> dict[str, Any]:
         )
         facts.append((gettext("falls"), reach))
     if result.displacement_m is not None and result.displacement_m >= 0.001:
-        facts.append((gettext("residual displacement (95 % of the cases)"), gettext("up to {shift:.1f} cm", shift=100.0 * result.displacement_m)))
+        shift = gettext("up to {shift:.1f} cm", shift=100.0 * result.displacement_m)
+        facts.append((gettext("residual displacement (95 % of the cases)"), shift))
     return {
         "name": object_name(result),
         "colour": share_colour(fall_share),

@@ -60,7 +60,7 @@ def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
         gettext("Peak values and energy"),
         [
             *("", f"PGA ({a.name})", gettext("at (s)"), f"PGV ({v.name})", f"PGD ({d.name})"),
-            *(name.replace(" (", "\n(") for name in ("CAV (m/s)", gettext("Arias (m/s)"), "5-95 % (s)")),
+            *(name.replace(" (", "\n(") for name in ("CAV (m/s)", gettext("Arias (m/s)"), gettext("5-95 % (s)"))),
         ],
         [
             (
