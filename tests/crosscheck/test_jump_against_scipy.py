@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.models.jump.solve import solve_jump
 from seisblock.records import Motion
+from seisblock.validation.sugimoto import GRAVITY, MOTION_PARTS, PRINTED_CASES, motion_part, table_chain
 from tests.motions import half_sine, real_motions
 
 G = 9.8
@@ -160,6 +161,21 @@ def test_printed_landing_equals_dop853(motion, block, contact, drop, slips):
     )
     ordinary = solve_jump(block, motion, contact=contact, drop=drop, spin="ratio=0.19", gravity=G).outcome.chains[0]
     assert result.rock_slide_duration_s > 1.2 * ordinary.rock_slide_duration_s
+
+
+def test_case_16_by_the_printed_scheme_equals_dop853():
+    """Case 16 on the reconstructed motion: 607 mm by the scheme of the tables, where the paper prints 616 mm."""
+    case, motion = PRINTED_CASES["16"], motion_part("d")
+    expected = table_chain("16", "printed")
+    ratio = float(case.table_spin.removeprefix("ratio="))
+    _, impact, landing, end, jumped, moved, slides, stops = chain(SHORT, motion, case.contact, ratio, case.drop, printed=True)
+    assert slides and not stops
+    assert GRAVITY == G
+    start = MOTION_PARTS["d"][1]
+    times = [start + impact, start + landing, start + end]
+    np.testing.assert_allclose([expected.impact_s, expected.landing_s, expected.end_s], times, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(abs(expected.jump_displacement_m + expected.rock_slide_displacement_m), abs(jumped + moved), atol=2e-9)
+    assert 1e3 * abs(jumped + moved) == pytest.approx(607, abs=0.5)
 
 
 @pytest.mark.parametrize(("motion", "block", "spin", "drop"), CASES)

@@ -104,6 +104,11 @@ def test_japanese_table_names_events_and_kinds_of_values():
     assert "値の種類" in values
 
 
+def test_displacement_back_at_its_start_is_shown_as_zero():
+    """Fujino fig. 4: the block returns to where it started; the table shows 0, not round-off."""
+    assert "e-" not in run("fujino1978", "fig4").stdout
+
+
 def test_own_data_has_no_verdict():
     """On the user's record the statements of the paper do not apply."""
     (entry,) = answer("fujino1978", "fig7", "sine:300gal@1.5Hz,4s")

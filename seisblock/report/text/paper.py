@@ -19,6 +19,9 @@ VERDICTS = {"holds": N_("holds"), "differs": N_("differs"), "drawn": N_("no prin
 SHORT_ROWS = 12
 """Rows of the shortened table."""
 
+ROUND_OFF = 1e-8
+"""Share of a column's largest value below which a value is shown as 0: a displacement that returns to its start."""
+
 
 def list_tables(papers: Sequence[Paper]) -> Iterator[Any]:
     """Yield the items of the papers."""
@@ -33,7 +36,8 @@ def tables(paper: Paper, item: Item, answer: Answer, *, own: bool) -> Iterator[A
     yield styled_line(headline(paper, item, cases, own=own), "bold")
     yield styled_line(gettext("data: {source}", source=gettext(answer.source)), "dim")
     headings = [gettext(column.heading) for column in answer.columns]
-    rows = [[format_cell(value, column) for value, column in zip(row, answer.columns, strict=True)] for row in answer.rows]
+    smallest = [ROUND_OFF * max((abs(v) for v in values if isinstance(v, float)), default=0.0) for values in zip(*answer.rows, strict=True)]
+    rows = [[format_cell(v, c, least) for v, c, least in zip(row, answer.columns, smallest, strict=True)] for row in answer.rows]
     full = side_by_side("", headings, rows)
     yield Part((full,), (side_by_side("", headings, _short(rows, answer)),)) if len(rows) > SHORT_ROWS else full
     if not own:
@@ -66,15 +70,15 @@ def headline(paper: Paper, item: Item, cases: Sequence[Case], *, own: bool) -> s
     return gettext(text, paper=paper.key, item=item.label, title=gettext(item.title), count=len(cases), differing=differing)
 
 
-def format_cell(value: Value, column: ItemColumn) -> str:
-    """Return a cell in the unit of its column."""
+def format_cell(value: Value, column: ItemColumn, smallest: float = 0.0) -> str:
+    """Return a cell in the unit of its column; values below `smallest` are round-off and shown as 0."""
     if value is None:
         return DASH
     if isinstance(value, str):
         return gettext(value)
     if isinstance(value, bool | int):
         return format_number(value)
-    return format_short(value / column.size, 5)
+    return format_short(value / column.size if abs(value) >= smallest else 0.0, 5)
 
 
 def _differences(cases: Sequence[Case]) -> Iterator[Any]:
