@@ -235,6 +235,7 @@ async def choose_record(request: Request, tab: Tab) -> Response:
         raise HTTPException(404)
     tab.uploaded = tuple(names)
     await tab.cancel("record")
+    await tab.cancel("object")  # its result is that of the previous record
     if source == "intensity":
         tab.record, tab.intensity = (), chosen[0]
         return HTMLResponse(views.intensity_summary(tab))

@@ -98,6 +98,11 @@ def test_object_under_a_set_of_files_has_the_probability_of_the_command(browser,
     assert output.text.replace("\N{NO-BREAK SPACE}", " ") == f"{100 * expected:g} %"
     assert find(browser, "figure").get_property("naturalWidth") > 500
     assert [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"] == []
+    # another record removes the result of this one
+    find(browser, "record-input").send_keys(SET[0])
+    wait_until_gone(browser, "probability")
+    assert not browser.find_elements("css selector", "[data-testid=probability]")
+    assert find(browser, "run").is_enabled()
 
 
 def test_wrong_file_gives_the_sentence_of_the_program_and_the_next_file_replaces_it(browser, address, tmp_path):

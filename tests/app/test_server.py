@@ -108,6 +108,12 @@ def test_intensity_stands_for_a_record(client):
     assert 'data-testid="record-summary"' in text and "6 upper" in text
 
 
+@pytest.mark.parametrize("data", [{"source": "intensity", "intensity": "6+"}, {"source": "motion", "motion": "sine:300gal@1.5Hz,10s"}])
+def test_another_record_removes_the_result_of_the_previous_one(client, data):
+    text = client.post(tab_address(client) + "/record", data=data).text
+    assert '<div id="object-slot" hx-swap-oob="innerHTML">' in text
+
+
 def finished_job(tmp_path, document, stderr="", line=("measure",)):
     job = Job(line, {"--plot": "figure.png"}, tmp_path, tmp_path, "en", JobState.DONE)
     (tmp_path / "stdout.txt").write_text(json.dumps(document), encoding="utf-8")
