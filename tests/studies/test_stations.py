@@ -26,10 +26,12 @@ from seisblock.readers.options import ReadOptions
 from seisblock.readers.read import read_source
 from seisblock.records import Component, Preparation, Record, motion_of
 from seisblock.studies.assessment import assess_record as assess_body
+from seisblock.studies.azimuth_probability import rank_by_probability
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.map.station_response import StationBody, StationCemetery
 from seisblock.studies.map.stations import survey_stations
 from seisblock.studies.respond.azimuths import respond_directions
+from seisblock.studies.sampling import ParameterVariation, sample
 from seisblock.studies.survey.assessment import AssessmentMethod, assess_cemetery, assess_record
 from seisblock.studies.survey.shaking import component_shakings
 from tests.stations import bundle, station_files
@@ -81,7 +83,7 @@ def test_stations_sort_worst_first(station_results):
 
 
 def test_station_equals_measure_and_respond(event, station_results):
-    """Peaks and intensity are those of `measure`, the fate that of `respond` in the worst direction."""
+    """Peaks and intensity are those of `measure`, the fate that of `respond` in the direction of the largest probability."""
     answer = station_results.answers[0]
     record = prepared_record(event, answer.station)
     measures = measure(record)
@@ -89,7 +91,13 @@ def test_station_equals_measure_and_respond(event, station_results):
     assert answer.pga_m_s2 == max(m.pga_m_s2 for m in horizontal)
     assert answer.pgv_m_s == pytest.approx(max(m.pgv_m_s for m in horizontal), rel=1e-12)
     assert answer.jma_intensity == measures.jma_intensity
-    worst = respond_directions(STONE, record, options=RespondOptions(mu=0.6))[0]
+    options = RespondOptions(mu=0.6)
+    coarse = [row for row in respond_directions(STONE, record, options) if row.moves and row.azimuth_deg % 15.0 == 0.0]
+    worst = rank_by_probability("respond", STONE, record, coarse, options, 20, ParameterVariation())[0]
+    assert worst.overturning_probability == max(
+        sample("respond", STONE.block_toward(row.azimuth_deg), motion_of(record, f"{row.azimuth_deg:g}"), options, 20).probability
+        for row in coarse
+    )
     assert (answer.effect.azimuth_deg, answer.effect.max_slip_m) == (worst.azimuth_deg, worst.max_displacement_m)
     single = solve_respond(STONE, motion_of(record, f"{worst.azimuth_deg:g}"), mu=0.6).outcome
     assert single.overturned == answer.effect.overturned

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
@@ -20,15 +21,21 @@ from seisblock.records.motion import ALL_AZIMUTHS, motion_of
 from seisblock.records.process import component_at_azimuth
 from seisblock.references import papers
 from seisblock.studies.assessment import LIKELY, Assessment, assess_record
+from seisblock.studies.azimuth_probability import rank_by_probability
 from seisblock.studies.azimuths import STEP_DEG
 from seisblock.studies.batch.table import REASON, Row
 from seisblock.studies.batch.task import Plan, component_rows
 from seisblock.studies.capabilities import capabilities
-from seisblock.studies.respond.azimuths import left_out_directions, respond_directions
+from seisblock.studies.respond.azimuths import RespondAzimuth, left_out_directions, respond_directions
+from seisblock.studies.rocking.azimuths import RockAzimuth, rock_directions
+from seisblock.studies.sampling import ParameterVariation
 from seisblock.studies.survey.assessment import AssessmentMethod, assess_stones
 from seisblock.studies.survey.overturning_rate import rate_from_stones
 from seisblock.studies.survey.shaking import Shaking
 from seisblock.studies.survey.stones import either
+
+RANKED_STEP_DEG, RANKED_RUNS = 15.0, 20
+"""Step between the azimuths whose probability is computed, degrees, and the largest number of samples of each."""
 
 RISE = "max_uplift_m"
 """Displacement field of a solver whose displacement is a rise."""
@@ -41,7 +48,7 @@ class StationResult:
     Parameters
     ----------
     azimuth_deg : float or None
-        The worst direction, clockwise from north.
+        The worst direction, clockwise from north; with samples the one of the largest overturning probability.
     rate : float or None
         Share of the stones that fall.
     happened : bool or None
@@ -111,7 +118,7 @@ class StationBody(DisplayMixin):
     runs, seed : int
         Number of samples of the probability (``respond``, ``rock``), 0 for none, and their seed.
     step_deg : float
-        Azimuth step of ``respond``, degrees; other solvers use their own.
+        Azimuth step of ``respond``, and of ``rock`` with samples, degrees; other solvers use their own.
     solver : str
         ``respond``, ``rock``, ``slide``, ``jump`` or ``uplift``.
     label : str
@@ -195,8 +202,8 @@ class StationBody(DisplayMixin):
 
     def evaluate(self, record: Record) -> StationResult:
         """Return the response to a record in the worst direction."""
-        if self.solver == "respond":
-            return self._respond_result(record)
+        if self.solver == "respond" or (self.solver == "rock" and self.runs):
+            return self._swept_result(record)
         components = (ALL_AZIMUTHS,) if self.is_directional else ()
         plan = Plan(self.solver, (SolverBody(self.name, self.body, self.options),), components)
         rows = component_rows(record, plan)
@@ -206,18 +213,32 @@ class StationBody(DisplayMixin):
         worst = max(results, key=lambda effect: effect.severity)
         return self._with_assessment(worst, record) if self.runs else worst
 
-    def _respond_result(self, record: Record) -> StationResult:
-        """Return the full response in the worst direction, with the probability there."""
-        results = respond_directions(self.body, record, self.options, step_deg=self.step_deg)
-        worst, remarks = results[0], left_out_directions(results)
+    def _swept_result(self, record: Record) -> StationResult:
+        """Return the result of `respond` or `rock` in the worst direction, with the probability of the object."""
+        results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]
+        if self.solver == "respond":
+            results = respond_directions(self.body, record, self.options, step_deg=self.step_deg)
+        else:
+            results = rock_directions(self.body, record, step_deg=self.step_deg, options=self.options)
+        worst, remarks = self._worst_direction(results, record), left_out_directions(results)
         result = StationResult(
             worst.azimuth_deg if worst.moves else None,
             happened=worst.overturned,
             overturned=worst.overturned,
-            max_slip_m=worst.max_displacement_m,
+            max_slip_m=worst.max_displacement_m if isinstance(worst, RespondAzimuth) else None,
             remarks=tuple(remarks),
         )
         return self._with_assessment(result, record) if self.runs else result
+
+    def _worst_direction(self, results: Sequence[Any], record: Record) -> Any:
+        """Return the direction of the largest probability among those in steps of 15 degrees; without samples the first."""
+        moving = [result for result in results if result.moves and not result.gave_up]
+        if not self.runs or not moving:
+            return results[0]
+        # near a threshold the single runs of neighbouring azimuths alternate: the worst of many is no worst azimuth
+        coarse = [result for result in moving if result.azimuth_deg % RANKED_STEP_DEG == 0.0] or moving
+        runs = min(self.runs, RANKED_RUNS)
+        return rank_by_probability(self.solver, self.body, record, coarse, self.options, runs, ParameterVariation(), seed=self.seed)[0]
 
     def _with_assessment(self, result: StationResult, record: Record) -> StationResult:
         """Return a result with the assessment of the object."""
