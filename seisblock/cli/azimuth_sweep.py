@@ -36,6 +36,7 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
         Returns the results of all azimuths of a record, the worst first.
     """
     from seisblock.records import motion_of
+    from seisblock.records.motion import azimuth_name
 
     if not is_azimuth_sweep(source):
         yield from ((motion, ()) for record in load_records(source) for motion in selected_motions(record, source))
@@ -48,14 +49,15 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
             results = sorted(results, key=lambda result: -_peak(record, result.azimuth_deg))
             text = N_("no motion in any of {count} azimuths; largest PGA at {azimuth:g} degrees")
         info(text, count=len(results), azimuth=results[0].azimuth_deg)
-        yield motion_of(record, f"{results[0].azimuth_deg:g}"), results
+        yield motion_of(record, azimuth_name(record, results[0].azimuth_deg)), results
 
 
 def _peak(record: Record, azimuth: float) -> float:
     """Return the PGA in an azimuth, m/s^2."""
     from seisblock.records import motion_of
+    from seisblock.records.motion import azimuth_name
 
-    return float(abs(motion_of(record, f"{azimuth:g}").horizontal).max())
+    return float(abs(motion_of(record, azimuth_name(record, azimuth)).horizontal).max())
 
 
 def sweep_block(choice: BodyChoice, motion: Motion, directions: Sequence[Any]) -> Block:

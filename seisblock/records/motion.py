@@ -156,11 +156,13 @@ class Motion(PlotMixin):
     @property
     def azimuth_deg(self) -> float | None:
         """Azimuth of +x, degrees clockwise from north; None if unknown."""
+        for component in () if self.record is None else self.record.components:
+            if component.code == self.name and component.azimuth_deg is not None:
+                return component.azimuth_deg
         try:
             return float(self.name)
         except ValueError:
-            components = () if self.record is None else self.record.components
-            return next((component.azimuth_deg for component in components if component.code == self.name), None)
+            return None
 
     @property
     def samples(self) -> int:
@@ -218,7 +220,8 @@ def motion_of(record: Record, component: str) -> Motion:
     record : Record
         Source; a missing vertical component gives a row of zeros.
     component : str
-        Code of a horizontal component, or an azimuth in degrees clockwise from north, for example ``37``.
+        Code of a horizontal component, or an azimuth in degrees clockwise from north, for example ``37``. A number that is the code of a
+        component names that component; ``37.0`` is then the azimuth.
 
     Returns
     -------
@@ -257,6 +260,20 @@ def motion_of(record: Record, component: str) -> Motion:
     return motion
 
 
+def azimuth_name(record: Record, azimuth_deg: float) -> str:
+    """Return the name of an azimuth for :func:`motion_of`, also where a component towards another azimuth has that number as its code.
+
+    Examples
+    --------
+    >>> record = Record([Component("90", np.zeros(2), 100.0), Component("0", np.zeros(2), 10.0)], 0.01)
+    >>> azimuth_name(record, 90.0), azimuth_name(record, 45.0), motion_of(record, "90").azimuth_deg
+    ('90.0', '45', 100.0)
+    """
+    name = f"{azimuth_deg:g}"
+    is_other = any(component.code == name and component.azimuth_deg != azimuth_deg % 360.0 for component in record.components)
+    return f"{name}.0" if is_other and "." not in name else name
+
+
 def requested_azimuth(motion: Motion) -> float | None:
     """Return the azimuth of a motion of a record that was requested by its degrees, None for a recorded component."""
     record = motion.record
@@ -282,10 +299,12 @@ def _warn_units(motion: Motion, depth: int) -> None:
 
 def _horizontal_rows(record: Record, component: str) -> tuple[FloatArray, Callable[[slice], FloatArray] | None]:
     """Return the acceleration along a direction, and a function for slices of the row 90 degrees counter-clockwise."""
-    azimuth = _parse_azimuth(component)
-    if azimuth is not None and not any(c.code == component for c in record.horizontals):
+    # a code that is a number names its component, whatever the azimuth of that
+    component_match = next((c for c in record.horizontals if c.code == component), None)
+    azimuth = None if component_match is not None else _parse_azimuth(component)
+    if azimuth is not None:
         checks.azimuth(azimuth, error=ComponentError)
-    component_match = None if azimuth is None else _recorded_component(record, component, azimuth)
+        component_match = _component_toward(record, azimuth)
     if azimuth is None or component_match is not None:
         selected = record.component(component) if component_match is None else component_match
         if selected.is_vertical:
@@ -302,7 +321,7 @@ def _horizontal_rows(record: Record, component: str) -> tuple[FloatArray, Callab
         along = selected.acceleration
     else:
         # a single oriented horizontal still gives its opposite direction, without the transverse row
-        opposite = _recorded_component(record, "", azimuth + 180.0)
+        opposite = _component_toward(record, azimuth + 180.0)
         if opposite is not None and sum(c.azimuth_deg is not None for c in record.horizontals) < 2:
             return readonly(-opposite.acceleration), None
         pair = oriented_pair(record)
@@ -322,10 +341,6 @@ def _parse_azimuth(component: str) -> float | None:
     return azimuth
 
 
-def _recorded_component(record: Record, component: str, azimuth: float) -> Component | None:
-    """Return the horizontal recorded towards an azimuth, or named by that number without a known azimuth."""
-    for candidate in record.horizontals:
-        code_matches = candidate.azimuth_deg is None and candidate.code == component
-        if code_matches or candidate.azimuth_deg == azimuth % 360.0:
-            return candidate
-    return None
+def _component_toward(record: Record, azimuth: float) -> Component | None:
+    """Return the horizontal recorded towards an azimuth."""
+    return next((candidate for candidate in record.horizontals if candidate.azimuth_deg == azimuth % 360.0), None)

@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 
+from seisblock.bodies.block import Block
 from seisblock.core.errors import ComponentError
 from seisblock.records import Component, Record, motion_of
+from seisblock.records.motion import azimuth_name, requested_azimuth
 from seisblock.records.process import select_component
+from seisblock.studies.azimuths import make_azimuth_sweep
 
 FIRST, SECOND = np.array([1.0, -2.0, 3.0]), np.array([0.5, 0.25, -4.0])
 
@@ -54,3 +57,16 @@ def test_opposite_azimuth_of_single_horizontal_is_negative():
 def test_other_azimuth_requires_two_horizontals():
     with pytest.raises(ComponentError, match="requires two horizontal components of known azimuth"):
         motion_of(record(("340", FIRST, 340.0)), "341")
+
+
+def test_code_of_component_precedes_the_azimuth_of_that_number():
+    """Component 90 recorded towards 100 is that component, and 90.0 the azimuth; a sweep names the azimuth."""
+    pair = record(("0", FIRST, 10.0), ("90", SECOND, 100.0))
+    component, azimuth = motion_of(pair, "90"), motion_of(pair, "90.0")
+    assert component.horizontal.tolist() == SECOND.tolist() == select_component(pair, "90").acceleration.tolist()
+    assert component.azimuth_deg == 100.0 and requested_azimuth(component) is None
+    assert azimuth.azimuth_deg == requested_azimuth(azimuth) == 90.0
+    np.testing.assert_allclose(azimuth.horizontal, np.cos(np.radians(10.0)) * SECOND + np.sin(np.radians(10.0)) * FIRST)
+    sweep = make_azimuth_sweep(Block(0.2, 0.6), pair, step_deg=90.0)
+    np.testing.assert_allclose(sweep.motion.horizontal, motion_of(pair, "0.0").horizontal)
+    assert azimuth_name(pair, 90.0) == "90.0" and azimuth_name(pair, 10.0) == "10"

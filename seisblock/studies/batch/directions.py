@@ -9,6 +9,7 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.core.registry import SolverBody
 from seisblock.records import Record, motion_of
 from seisblock.records._validation import vertical_gain
+from seisblock.records.motion import azimuth_name
 from seisblock.studies.azimuth_probability import Azimuth, rank_by_probability
 from seisblock.studies.azimuths import sweep_azimuths
 from seisblock.studies.respond.azimuths import RespondAzimuth, left_out_directions, respond_directions
@@ -26,13 +27,13 @@ Worst: TypeAlias = tuple[str, dict[str, int], list[str]]
 def worst_rock(solver_body: SolverBody, record: Record, runs: int, seed: int) -> Worst:
     """Return the worst direction of a rocking block: with samples the most probable one, else that of the single runs."""
     results = rock_directions(solver_body.body, record, options=solver_body.options)
-    return _worst_result(_ranked("rock", solver_body, record, results, runs, seed))
+    return _worst_result(record, _ranked("rock", solver_body, record, results, runs, seed))
 
 
 def worst_respond(solver_body: SolverBody, record: Record, runs: int, seed: int) -> Worst:
     """Return the worst direction of a free-standing body: with samples the most probable one, else that of the single runs."""
     results = respond_directions(solver_body.body, record, solver_body.options)
-    return _worst_result(_ranked("respond", solver_body, record, results, runs, seed))
+    return _worst_result(record, _ranked("respond", solver_body, record, results, runs, seed))
 
 
 def _ranked(solver: str, body: SolverBody, record: Record, results: list[Azimuth], runs: int, seed: int) -> list[Azimuth]:
@@ -42,16 +43,16 @@ def _ranked(solver: str, body: SolverBody, record: Record, results: list[Azimuth
     return rank_by_probability(solver, body.body, record, results, body.options, runs, ParameterVariation(), seed=seed)
 
 
-def _worst_result(results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
+def _worst_result(record: Record, results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
     """Return the first (worst) direction with the number of directions solved and of those with overturning."""
     fall_count, solved_count = sum(result.overturned for result in results), sum(not result.gave_up for result in results)
-    return f"{results[0].azimuth_deg:g}", {DIRECTIONS: solved_count, FALLEN_DIRECTIONS: fall_count}, left_out_directions(results)
+    return azimuth_name(record, results[0].azimuth_deg), {DIRECTIONS: solved_count, FALLEN_DIRECTIONS: fall_count}, left_out_directions(results)
 
 
 def worst_slide(solver_body: SolverBody, record: Record, runs: int, seed: int) -> Worst:
     """Return the worst direction of a sliding object."""
     base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
-    motions = [motion_of(record, f"{azimuth:g}") for azimuth in sweep_azimuths(base)]
+    motions = [motion_of(record, azimuth_name(record, azimuth)) for azimuth in sweep_azimuths(base)]
     points = slide_study(
         base.mu,
         motions=motions,
