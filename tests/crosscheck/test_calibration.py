@@ -16,7 +16,7 @@ SHORT = ("el_centro", "corralitos", "synthetic_M6.5_R20_003")
 
 @pytest.mark.slow
 def test_probability_of_rock_equals_share_of_pendulums_that_overturn():
-    """Neither bias nor over- or underconfidence, within three standard deviations; a restitution 10 % off gives 4.2, an amplitude 15 % off 3.9."""
+    """Neither bias nor over- or underconfidence beyond three standard deviations; a restitution 10 % off gives four."""
     cases = planar_cases(13, names=SHORT)
     assert len(cases) == 78 and sum(0.1 < case.probability < 0.9 for case in cases) >= 25
     assert np.abs(scores(cases)).max() < 3.0

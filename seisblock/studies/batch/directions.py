@@ -46,7 +46,8 @@ def _ranked(solver: str, body: SolverBody, record: Record, results: list[Azimuth
 def _worst_result(record: Record, results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
     """Return the first (worst) direction with the number of directions solved and of those with overturning."""
     fall_count, solved_count = sum(result.overturned for result in results), sum(not result.gave_up for result in results)
-    return azimuth_name(record, results[0].azimuth_deg), {DIRECTIONS: solved_count, FALLEN_DIRECTIONS: fall_count}, left_out_directions(results)
+    counts = {DIRECTIONS: solved_count, FALLEN_DIRECTIONS: fall_count}
+    return azimuth_name(record, results[0].azimuth_deg), counts, left_out_directions(results)
 
 
 def worst_slide(solver_body: SolverBody, record: Record, runs: int, seed: int) -> Worst:
