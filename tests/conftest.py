@@ -3,6 +3,7 @@
 import contextlib
 import dataclasses
 import functools
+import gc
 import json
 import os
 import signal
@@ -14,6 +15,7 @@ import pytest
 
 import seisblock
 from seisblock import _jit
+from seisblock.__main__ import GC_THRESHOLD
 from seisblock.validation.case import Case, CaseResult
 from tests.kernels import compile_all
 
@@ -32,6 +34,16 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
 hypothesis.settings.register_profile("ci", derandomize=True, deadline=None)
 if os.environ.get("CI"):
     hypothesis.settings.load_profile("ci")
+
+
+# as in the program: at the default threshold garbage collections take a sixth of the run time
+gc.set_threshold(GC_THRESHOLD)
+
+
+def pytest_collection_finish():
+    """Leave imported modules and collected tests out of every later garbage collection."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_addoption(parser):

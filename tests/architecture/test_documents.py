@@ -1,5 +1,6 @@
 """Pages for developers are true: versions agree, lower bounds are those of the package, named files exist."""
 
+import functools
 import os
 import re
 import runpy
@@ -92,15 +93,20 @@ def test_ci_runs_suite_and_slow_tests():
     assert run == [text, f"{text} -m slow"]
 
 
+@functools.cache
+def repository_paths():
+    """Return the files and folders of the repository, each after a slash, folders before one."""
+    folders = ("seisblock", "tests", "docs", "sample_records", ".ci", ".github")
+    paths = [*ROOT.glob("*"), *(path for folder in folders for path in (ROOT / folder).rglob("*"))]
+    return ["/" + path.relative_to(ROOT).as_posix() + "/" * path.is_dir() for path in paths]
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_paths_in_pages_exist(page):
     """Every path in a page leads to a file or folder of the repository."""
     text = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|\w+\.(?:py|md|toml|pyi|cff))`", page.read_text(encoding="utf-8")))
     text -= {name for name in text if any(word in name for word in PLACEHOLDERS)} | set(SURFACES)
-    folders = ("seisblock", "tests", "docs", "sample_records", ".ci", ".github")
-    paths = [*ROOT.glob("*"), *(path for folder in folders for path in (ROOT / folder).rglob("*"))]
-    second = ["/" + path.relative_to(ROOT).as_posix() + "/" * path.is_dir() for path in paths]
-    assert sorted(name for name in text if name != "utils.py" and not any(path.endswith("/" + name) for path in second)) == []
+    assert sorted(name for name in text if name != "utils.py" and not any(path.endswith("/" + name) for path in repository_paths())) == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

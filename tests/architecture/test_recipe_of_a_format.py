@@ -22,7 +22,8 @@ LINE = re.compile(r"^\$ seisblock (.+)$", re.MULTILINE)
 def tree(tmp_path_factory):
     """Return a copy of the package with the format file of the recipe, and its sample beside it."""
     folder = tmp_path_factory.mktemp("recipe")
-    shutil.copytree(ROOT / "seisblock", folder / "seisblock", ignore=shutil.ignore_patterns("__pycache__"))
+    # compiled modules come along, but not those that another process is writing
+    shutil.copytree(ROOT / "seisblock", folder / "seisblock", ignore=shutil.ignore_patterns("*.pyc.*"))
     shutil.copytree(ROOT / "sample_records", folder / "sample_records")
     for pattern in (FORMAT_FILE, SAMPLE_FILE):
         ((name, text),) = pattern.findall(RECIPE)
