@@ -207,11 +207,11 @@ def test_overturn_rate_writes_csv_and_figure(run, sines):
 @pytest.mark.parametrize(
     "words",
     [
-        ["sines.csv", "--window", "0:12"],
-        ["sines.csv", "--window", "0:12", "--both"],
+        ["sines.csv", "--window", "0:6"],
+        ["sines.csv", "--window", "0:6", "--both"],
         ["--pga", "300,725", "--frequency", "1"],
-        ["sines.csv", "elcentro_1940_ns", "--window", "0:12"],
-        ["sines.csv", "--window", "0:12", "--criterion", "simulate"],
+        ["sines.csv", "elcentro_1940_ns", "--window", "0:6"],
+        ["sines.csv", "--window", "0:6", "--criterion", "simulate"],
     ],
     ids=" ".join,
 )

@@ -43,7 +43,7 @@ WORKS = {
     "computing": "measure record.csv",
     "reading record.csv": "measure record.csv",
     "margin": "rock record.csv --block gravestone --margin",
-    "samples": "respond record.csv --block gravestone --runs 400",
+    "samples": "respond record.csv --block gravestone --runs 100",
     "drawing": "slide record.csv --mu 0.2 --plot slide.png",
     "writing slide.csv": "slide record.csv --mu 0.2 --csv slide.csv",
 }

@@ -23,7 +23,7 @@ IN_GAL = {
     "respond": (*SHORT, *BLOCK, "--mu", "0.5", "--runs", "0"),
     "slide": (*SHORT, "--mu", "0.2"),
     "rock": (*SHORT, *BLOCK),
-    "rigid3d": (*SHORT, *BLOCK, "--mu", "0.5"),
+    "rigid3d": (*SHORT, *BLOCK, "--mu", "0.5", "--runs", "0"),
     "jump": SHORT,
     "uplift": (*SHORT, *BLOCK, "--frequency-vertical", "8"),
     "stack": SHORT,

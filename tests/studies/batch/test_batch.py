@@ -60,7 +60,7 @@ def test_batch_all_azimuths_gives_worst_per_row(folder, solver):
     assert run(line).exit_code == 0
     rows = {(row["record"], row["body"]): row for row in table("t.csv")}
     assert len(rows) == len(table("t.csv")) == 2 * 3
-    single = SINGLE[solver][1].format(**SLENDER).replace("--runs 0", "")
+    single = SINGLE[solver][1].format(**SLENDER).replace("--runs 0", "--runs 5")
     answer = document(f"{solver} records/r3.csv {single} --component all-azimuths")
     (result,) = answer["results"]
     row = rows["r3.csv", "slender"]
