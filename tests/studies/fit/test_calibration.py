@@ -40,7 +40,10 @@ def test_fit_intervals_contain_truth_in_six_experiments():
 
 @pytest.mark.slow
 def test_fit_intervals_have_nominal_coverage():
-    """A hundred experiments: 90 % intervals hold 90 %, within what a hundred leave open (three standard deviations), halves a half."""
-    shares = np.mean([truth_in_interval(number) for number in range(100)], axis=0)
+    """Sixty experiments: 90 % intervals hold 90 % within 0.09, halves a half within 0.15, 2.3 standard deviations of sixty.
+
+    Intervals that held 75 % would fail with a probability of 86 %, those that held 70 % with 97 % (a hundred experiments: 92 and 99 %).
+    """
+    shares = np.mean([truth_in_interval(number) for number in range(60)], axis=0)
     assert (np.abs(shares[:3] - 0.9) < 0.09).all(), shares
     assert abs(shares[3] - 0.5) < 0.15, shares
