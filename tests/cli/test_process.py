@@ -215,15 +215,6 @@ def centers(monkeypatch):
         yield server
 
 
-@pytest.fixture
-def few_runs(monkeypatch):
-    """A quarter of the records and an eighth of the runs of `secure`, whose pages show the values of all of them."""
-    monkeypatch.setattr("seisblock.studies.scenario.motions.DEFAULT_RECORDS", 10)
-    monkeypatch.setattr("seisblock.studies.scenario.hazard.RECORDS_PER_LEVEL", 2)
-    monkeypatch.setattr("seisblock.studies.scenario.assess.MIN_RUNS", 20)
-    monkeypatch.setattr("seisblock.studies.scenario.secure.FULL_RUNS", 40)
-
-
 def examples(name):
     """Return the lines at the end of a command's help."""
     text = CliRunner().invoke(main, [name, "--help"] if name else ["--help"]).stdout
@@ -241,7 +232,7 @@ def test_help_examples_run(name, workshop, monkeypatch, request):
     monkeypatch.setattr("seisblock.app.server.serve", lambda listener, *rest: listener.close())
     if name == "fetch":
         request.getfixturevalue("centers")
-    if name == "secure":
+    if name in {"scenario", "secure"}:
         request.getfixturevalue("few_runs")
     lines = examples(name)
     assert len(lines) >= 2

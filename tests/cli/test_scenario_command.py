@@ -80,6 +80,7 @@ def test_scenario_rejects_bad_input_in_a_sentence(args, message):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("few_runs")
 def test_secure_writes_document_and_rejects_scans():
     line = ("secure", *SHORT, "--jma", "6-", "--width", "30cm", "--height", "150cm", "--mu", "0.5", "--target", "10%")
     result = run(*line, "--json")
@@ -96,6 +97,7 @@ def test_secure_writes_document_and_rejects_scans():
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("few_runs")
 def test_secure_assumes_the_friction_and_gives_the_probability_of_a_scenario(tmp_path):
     path = tmp_path / "list.csv"
     path.write_text("name,width (cm),height (cm),place\nbad,x,1,\nshelf,30,150,hall\n", encoding="utf-8")
@@ -186,6 +188,7 @@ def test_overturn_rate_with_pgv_takes_the_equivalent_frequency(paired):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("few_runs")
 def test_secure_under_a_hazard_gives_the_probability_in_the_period():
     line = ("secure", "--hazard", "synthetic_hazard.csv", "--width", "40cm", "--height", "180cm", "--mu", "0.4", "--json")
     short, long = (json.loads(run(*line, "--target", "20%", "--years", years).stdout) for years in ("10", "50"))
