@@ -304,11 +304,7 @@ def test_find_measures_are_sufficient_and_minimal(security, name, scale_of, unsa
     assert share(value * (1.0 + 0.02 * unsafe), 0) > 0.1
     # other versions: the target within the sampling error, and their own limit near the value
     assert share(value, 77) <= 0.1 + 2.0 * math.sqrt(0.1 * 0.9 / 320)
-    weak, strong = value * (1.0 + 0.2 * unsafe), value * (1.0 - 0.2 * unsafe)
-    for _ in range(6):
-        middle = 0.5 * (weak + strong)
-        weak, strong = (weak, middle) if share(middle, 77) <= 0.1 else (middle, strong)
-    assert strong == pytest.approx(value, rel=0.06)
+    assert share(value * (1.0 - 0.06 * unsafe), 77) <= 0.1 < share(value * (1.0 + 0.06 * unsafe), 77)
 
 
 @pytest.mark.slow
