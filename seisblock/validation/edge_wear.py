@@ -52,6 +52,9 @@ SINE_FREQUENCIES = (0.5, 1.0, 1.5, 2.0)
 SOLID_LEVEL, FRICTION = 1.3, 0.6
 """Stones are solved in three dimensions at this multiple of the median criterion, with this friction."""
 
+SOLID_BEFORE_S, SOLID_AFTER_S = 10.0, 30.0
+"""Part of each record that stones in three dimensions and planar blocks are compared under, s before and after its largest acceleration."""
+
 INTENSITY_TOLERANCE = 0.03
 """Tolerance of an intensity: interpolation between levels, and chaos of single stones."""
 
@@ -172,8 +175,11 @@ def solid_difference() -> float:
     differences = []
     for shaking in shakings():
         factor = SOLID_LEVEL * float(np.median(fitted_limits(stones(), shaking.frequency))) / shaking.pga
-        planar = either([simulated_overturns(Cemetery(sample), motion, scale=factor) for motion in shaking.motions])
-        motion = Motion(shaking.motions[0].acceleration * factor, shaking.motions[0].dt)
+        middle, dt = int(np.abs(shaking.motions[0].horizontal).argmax()), shaking.motions[0].dt
+        strong = slice(max(middle - round(SOLID_BEFORE_S / dt), 0), middle + round(SOLID_AFTER_S / dt))
+        motions = [Motion(motion.acceleration[:, strong], dt, name=motion.name) for motion in shaking.motions]
+        planar = either([simulated_overturns(Cemetery(sample), motion, scale=factor) for motion in motions])
+        motion = Motion(motions[0].acceleration * factor, dt)
         solid = []
         for stone in sample:
             block = PileStone("sao", PAPER_WIDTH, PAPER_WIDTH, PAPER_WIDTH * stone.height_over_width)
