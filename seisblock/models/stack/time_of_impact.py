@@ -58,9 +58,12 @@ def detect_impacts(count, memory):
     for i in range(count):
         row = table[i]
         row[GAP_RATE] = _gap_rate(memory.contact_ids[i, 0], memory.contact_ids[i, 1], row, memory)
+        # contacts that close within the window strike together; a bound of minus infinity switches the others off for
+        # this impact
         row[MIN_NORMAL_VELOCITY] = (
             0.0 if row[GAP] <= row[SIMULTANEITY_WINDOW] * step_info[FULL_STEP] * max(-row[GAP_RATE], row[IMPACT_SPEED]) else -math.inf
         )
+        # slower approaches are resting contacts, which the step itself closes
         if row[MIN_NORMAL_VELOCITY] == 0.0 and row[GAP_RATE] < -IMPACT_SPEED_RATIO * row[IMPACT_SPEED]:
             has_impact = True
     return has_impact
@@ -96,6 +99,7 @@ def load_until_impact(count, time_before, memory):
         row[PRIOR_NORMAL_FORCE] = max(_normal_part(row, IMPULSE), 0.0)
         # a striking contact carries nothing before the impact
         if row[GAP_RATE] < -IMPACT_SPEED_RATIO * row[IMPACT_SPEED]:
+            # its impulse belongs to the impact, not to the load before it
             row[MIN_NORMAL_VELOCITY] = -math.inf
         for k in range(3):
             row[IMPULSE + k] *= time_before
@@ -114,6 +118,7 @@ def _add_restitution_row(i, count, row_index, n, pile, memory):
     closing_rate, prior_force, load, touch_count, rate = 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(count):
         if _same_bodies(i, j, memory) and table[j, MIN_NORMAL_VELOCITY] == 0.0:
+            # the fastest approaching point of the joint is the one that strikes
             closing_rate = min(closing_rate, table[j, GAP_RATE])
             if not _is_impact(table[j]):
                 touch_count += 1.0
@@ -157,6 +162,7 @@ def begin_impacts(count, memory):
     for i in range(count):
         row = memory.constraint_rows[i]
         for k in range(3):
+            # prior and impact impulses are kept apart: only the resting forces serve the warm start
             row[PRIOR_IMPULSE + k] = row[IMPULSE + k]
             row[IMPULSE + k] = 0.0
             row[IMPACT_IMPULSE + k] = 0.0
@@ -169,6 +175,7 @@ def add_restitution_rows(count, n, pile, memory):
     for i in range(count):
         memory.constraint_rows[i, LOAD_SHARE] = 0.0
     for i in range(count):
+        # one row serves all points of a joint
         has_row = not (memory.constraint_rows[i, RESTITUTION_RATIO] >= 0.0 and _is_impact(memory.constraint_rows[i]))
         for j in range(count, rows):
             has_row = has_row or _same_bodies(i, j, memory)
@@ -187,6 +194,7 @@ def store_impact(count, rows, memory):
             row[IMPULSE + k] = 0.0
         for j in range(count, rows):
             if _same_bodies(i, j, memory):
+                # a second impact of the same joint at this instant is plastic: repeated restitution would not end
                 row[RESTITUTION_RATIO] = -1.0
 
 
@@ -205,6 +213,7 @@ def distribute_joint_impulse(count, rows, memory):
 def make_impact_plastic(count, rows, n, pile, memory):
     """Undo the restitution rows, which makes the impact plastic."""
     apply_impulses(rows - count, memory.contact_ids[count:], memory.constraint_rows[count:], n, pile.inertias, -1.0, memory.body_velocities)
+    # the points carry the impact again, as inelastic contacts
     for i in range(count):
         if memory.constraint_rows[i, LOAD_SHARE] > 0.0:
             memory.constraint_rows[i, MIN_NORMAL_VELOCITY] = 0.0
@@ -237,10 +246,13 @@ def next_impact_time(count, half, time_left, memory):
         row = memory.constraint_rows[i]
         row[MIN_NORMAL_VELOCITY] = 0.0
         window = row[SIMULTANEITY_WINDOW] * full_step
+        # closed already: nothing to wait for
         if row[GAP] <= window * max(-row[GAP_RATE], row[IMPACT_SPEED]):
             continue
+        # rate of change of the gap rate under the present forces
         gain = (_gap_rate(memory.contact_ids[i, 0], memory.contact_ids[i, 1], row, memory) - row[GAP_RATE]) / half
         time = _closing_time(row[GAP], row[GAP_RATE], gain)
+        # a slow contact closes within the step by its velocity bound, without an impact
         if time < time_left + window and row[GAP_RATE] + gain * time < -IMPACT_SPEED_RATIO * min(
             free_fall_speed, max(-gain * full_step, row[IMPACT_SPEED])
         ):

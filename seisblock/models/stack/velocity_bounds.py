@@ -52,6 +52,7 @@ def max_roll_time(count, time_left, memory):
                 min_time,
                 _rolling_bias(memory.contact_ids[i, 0], memory.contact_ids[i, 1], time_left, memory.constraint_rows[i], bias, memory),
             )
+    # a fast rim must not cut the step to nothing
     return min(time_left, max(min_time, MIN_STEP_RATIO * memory.step_info[FULL_STEP]))
 
 
@@ -66,6 +67,7 @@ def set_velocity_bounds(count, dt, memory):
     for i in range(count):
         row, gap, a, b = memory.constraint_rows[i], memory.constraint_rows[i, GAP], memory.contact_ids[i, 0], memory.contact_ids[i, 1]
         row[BILATERAL] = 0.0
+        # zero marks an active contact; contacts that strike later keep minus infinity
         if row[MIN_NORMAL_VELOCITY] == 0.0:
             # Baumgarte correction: overlaps are reduced by a fixed share per step, with limited speed, so that they add no energy
             row[MIN_NORMAL_VELOCITY] = (
@@ -77,5 +79,7 @@ def set_velocity_bounds(count, dt, memory):
             row[ROTATION_BIAS + k] = 0.0
         if row[RIM_RADIUS] != 0.0:
             _rolling_bias(a, b, dt, row, row[ROTATION_BIAS:], memory)
+        # the velocity bound applies at the middle of the coming step, hence half of it; the signs are those of the
+        # relative velocity
         _add_rotation_bias(memory.body_velocities[a], row[ARM_A:], 0.5 * dt, row[ROTATION_BIAS:])
         _add_rotation_bias(memory.body_velocities[b], row[ARM_B:], -0.5 * dt, row[ROTATION_BIAS:])

@@ -56,6 +56,7 @@ def save_slots(count, slots, old_slots):
 @kernel(_t.void(VECTOR, MATRIX, _t.int64), inline=True)
 def match_point(slot, old_slots, count):
     """Warm-start a contact from the nearest unmatched point of the last step."""
+    # a point farther away belongs to another contact: its force would be a worse guess than none
     match, min_distance_squared = -1, MATCH_RADIUS**2
     for i in range(count):
         old = old_slots[i]
@@ -103,6 +104,7 @@ def _sum_forces(field, slots, frame, load):
             load[LOAD_FORCE] += f0
             load[LOAD_FORCE + 1] += f1
             load[LOAD_FORCE + 2] += f2
+            # first moments of the normal forces, divided below by their sum
             load[LOAD_CENTRE] += f2 * x
             load[LOAD_CENTRE + 1] += f2 * y
             load[LOAD_TWIST] += x * f1 - y * f0
@@ -137,6 +139,7 @@ def sum_joint_load(slots, frame, loads):
 @kernel(_t.boolean(_t.int64, MATRIX, MATRIX, _t.float64), inline=True)
 def has_lost_loaded_point(points, slots, old_slots, radius):
     """Return whether a loaded point of the last step has no new point within `radius`, m."""
+    # forces can be kept point by point only if every loaded point has a successor
     for i in range(old_slots.shape[0]):
         old, is_near = old_slots[i], False
         if old[ACTIVE] == 0.0 or (old[CACHED_FORCE] == 0.0 and old[CACHED_FORCE + 1] == 0.0 and old[CACHED_FORCE + 2] == 0.0):
@@ -176,6 +179,7 @@ def _distribute_to_triangle(field, a, b, c, load, frame):
     # a load slightly outside the triangle is kept by limited tension, else its moment would be lost
     u, v, w = max(u, -MAX_TENSION_RATIO), max(v, -MAX_TENSION_RATIO), max(w, -MAX_TENSION_RATIO)
     total, polar = u + v + w, 0.0
+    # the twist is carried by forces across the arms to the centre of pressure, in proportion to them
     for q in range(3):
         slot, weight = (a if q == 0 else b if q == 1 else c), (u if q == 0 else v if q == 1 else w) / total
         # polar moment about the centre of pressure, per unit load
@@ -256,6 +260,7 @@ def project_to_plane(first, count, max_gap, table):
         mean_press += table[i, IMPULSE] * n0 + table[i, IMPULSE + 1] * n1 + table[i, IMPULSE + 2] * n2
     points = count - first
     c0, c1, c2, mean_press = c0 / points, c1 / points, c2 / points, mean_press / points
+    # axes of unequal length do no harm: the slopes of the plane scale inversely
     # axes in the plane of the joint, from its centre to its first point and across
     e0, e1, e2 = table[first, ARM_B] - c0, table[first, ARM_B + 1] - c1, table[first, ARM_B + 2] - c2
     f0, f1, f2 = n1 * e2 - n2 * e1, n2 * e0 - n0 * e2, n0 * e1 - n1 * e0
@@ -276,6 +281,8 @@ def project_to_plane(first, count, max_gap, table):
         return
     gx, gy, scale = (mx * yy - my * xy) / d, (my * xx - mx * xy) / d, 1.0
     # the first pass limits the change so that no point pulls, the second applies it
+    # all forces move to the plane by one common share: the sum of the changes has neither force nor moment, so that
+    # the load stays
     for stage in range(2):
         for i in range(first, count):
             a0, a1, a2 = table[i, ARM_B] - c0, table[i, ARM_B + 1] - c1, table[i, ARM_B + 2] - c2

@@ -57,6 +57,7 @@ class Lognormal(DisplayMixin):
         from scipy.special import ndtr
 
         x = checks.float_array("the intensities", intensity)
+        # ln 0 is minus infinity, and the probability zero
         with np.errstate(divide="ignore"):
             return np.asarray(ndtr(np.log(np.maximum(x, 0.0) / self.median) / self.beta))
 
@@ -99,6 +100,7 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
     >>> round(curve.median, 3), round(curve.beta, 3)
     (2.828, 0.477)
     """
+    # texts, lists and arrays are accepted alike; errors name the argument
     x, y, n = (checks.float_array(name, values) for name, values in _labelled_inputs(levels, exceeding, runs))
     if x.ndim != 1 or x.size < 2 or y.shape != x.shape or n.size not in (1, x.size):
         raise ParameterError(
@@ -111,10 +113,12 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
         raise ParameterError("the levels of a fragility must be positive numbers")
     if not ((y >= 0.0) & (y <= n) & (n > 0.0) & np.isfinite(n)).all():
         raise ParameterError("counts of a fragility must lie between 0 and the number of runs, which must be positive")
+    # complete separation has no finite maximum of the likelihood: the message names levels that would give one
     reason = no_curve_reason(x, y, n)
     if reason:
         raise ParameterError("{why}", why=reason)
     medians, betas = fit_lognormals(x, y[None], n[None])
+    # a falling trend has a negative slope, for which no lognormal curve exists
     if not math.isfinite(float(medians[0])):
         raise ParameterError("{why}", why=NOT_INCREASING)
     return Lognormal(float(medians[0]), float(betas[0]))
@@ -145,6 +149,7 @@ def no_curve_reason(
     first : bool
         True for levels of first exceedance of each motion: two different ones are enough.
     """
+    # a curve needs exceedances as well as survivors
     has_exceedance, has_survivor = exceeding > 0.0, exceeding < runs
     size, unit = display_unit
     ends = {"low": levels.min(), "top": levels.max()}

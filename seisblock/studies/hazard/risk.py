@@ -164,13 +164,16 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
     checks.positive("the number of years", years)
     if stood_years is not None:
         checks.positive("the number of years without occurrence", stood_years)
+    # a common set of levels makes the shares of the branches comparable; a power law is unchanged by further levels
     union = np.unique(np.concatenate([np.asarray(branch.levels) for branch in hazard.branches]))
     shares = [_contributions(branch.with_levels(union), fragility) for branch in hazard.branches]
     weights = np.array([branch.weight for branch in hazard.branches])
     weights /= weights.sum()
     rates = np.array([row.sum() for row in shares])
     total = float(weights @ rates)
+    # extrapolation beyond the levels of each branch itself, not of all branches together
     outside_rate = float(weights @ [_contributions(branch, fragility)[[0, -1]].sum() for branch in hazard.branches])
+    # Poisson process: probability of no event in the observed period
     no_event_probability = None if stood_years is None else np.exp(-rates * stood_years)
     posterior_weights = None if stood_years is None else _posterior_weights(weights, -rates * stood_years)
     return Risk(
@@ -178,6 +181,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
         hazard=hazard,
         annual_rate=total,
         return_period_years=1.0 / total if total > 1.0 / checks.MAX_MAGNITUDE else None,
+        # expm1 keeps the digits of small probabilities
         probability=ProbabilityInYears(float(years), -math.expm1(-total * years)),
         branches=tuple(
             BranchRisk(
@@ -202,11 +206,17 @@ def _contributions(curve: HazardCurve, fragility: Lognormal) -> FloatArray:
     from scipy.special import ndtr
 
     u, mu, beta = np.log(np.asarray(curve.levels)), math.log(fragility.median), fragility.beta
+    # the slope of an interval starts at its lower level; the first one, below all levels, at the lowest
     k, anchor = curve.slopes, np.maximum(np.arange(u.size + 1) - 1, 0)
     z = np.concatenate([[-np.inf], (u - mu) / beta, [np.inf]])
+    # power law times lognormal density: completing the square shifts the argument of Phi by k beta and leaves the
+    # factor exp((k beta)^2 / 2)
     logs = np.log(np.asarray(curve.rates))[anchor] - k * (mu - u[anchor]) + 0.5 * (k * beta) ** 2
     inside = np.exp(logs + _log_between(z[:-1] + k * beta, z[1:] + k * beta))
+    # integration by parts: the share of an interval of intensity is the integral of lambda dP less the change of P
+    # lambda
     edge = np.concatenate([[0.0], ndtr(z[1:-1]) * np.asarray(curve.rates), [0.0]])
+    # round-off may leave a tiny negative share
     return np.asarray(np.maximum(inside - np.diff(edge), 0.0))
 
 
@@ -224,6 +234,7 @@ def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
 
 def _posterior_weights(weights: FloatArray, log_likelihood: FloatArray) -> FloatArray:
     """Return the branch weights updated by the log-likelihoods."""
+    # the largest exponent is subtracted, so that long periods do not underflow
     scaled_weights = weights * np.exp(log_likelihood - log_likelihood.max())
     return np.asarray(scaled_weights / scaled_weights.sum())
 

@@ -164,6 +164,7 @@ def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
     """
     checks.instance(cemetery, Cemetery)
     is_integer = isinstance(fallen, Integral) and isinstance(stones, Integral)
+    # the interval depends on the number of stones, so that a rate alone is not enough
     if not (is_integer and 0 <= fallen <= stones and stones > 0):
         raise ParameterError(
             "a rate requires whole numbers with 0 <= fallen <= stones and at least one stone, found {fallen}/{stones}",
@@ -215,8 +216,11 @@ def _log_likelihood(survey: Survey, log_pga: FloatArray, log_limits: FloatArray,
     """Return the same from the logarithm of each row's limit, (rows,)."""
     from scipy.special import log_ndtr, logsumexp
 
+    # capacity of a stone: the limit of the criterion with a lognormal error
     x = (log_pga[:, None] - log_limits[None, :]) / stone_error
+    # logarithms of both tails stay finite far from the limit, where the probabilities underflow
     falls, stands = log_ndtr(x), log_ndtr(-x)
+    # marked stones are independent given the PGA: their logarithms add
     if survey.counts is None:
         total: FloatArray = falls @ survey.fallen.astype(np.float64) + stands @ survey.standing.astype(np.float64)
         return total
@@ -306,6 +310,7 @@ def _likelihood_curve(
     # the step resolves the narrower of both errors
     spread, step = math.hypot(common_error, stone_error), min(common_error, stone_error) / POINTS_PER_ERROR
     reach = math.ceil(GRID_SIGMAS * spread / step)
+    # beyond this reach all stones stand, or all fall, and the curve is constant
     grid = step * np.arange(-reach, math.ceil(max(log_limits) / step) + reach + 1, dtype=np.float64)
     stone_log_likelihood = _log_likelihood(survey, grid, np.array(log_limits), stone_error)
     # marginalisation over the normal common error is a convolution on the even grid
