@@ -75,6 +75,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
     # normals of the partner: its own axes
     for i in range(3):
         d = rel[REL_D + i]
+        # always +1 or -1: between centres at the same level either side will do, but zero is no direction
         side = 1.0 if d > 0.0 else -1.0
         gap = side * d - partner_half[i] - _support_distance(rel[3 * i], rel[3 * i + 1], rel[3 * i + 2], carrier_half)
         if gap > max_gap:
@@ -92,6 +93,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
     # the best face axis is kept: an edge-edge contact uses it for the corners that come to rest on the face
     for k in range(KIND + 1):
         axis[FACE_AXIS + k] = axis[k]
+    # more axes can only widen the gap: the boxes are out of reach already
     if max_gap > cutoff:
         return max_gap
     threshold = max_gap + AXIS_BIAS
@@ -110,6 +112,8 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
             if square < PARALLEL_TOLERANCE:
                 continue
             d = x * d0 + y * d1 + z * d2
+            # the product is as long as the sine of the angle between the edges: gaps along different axes compare
+            # only when normalized
             scale = (1.0 if d > 0.0 else -1.0) / math.sqrt(square)
             x, y, z = scale * x, scale * y, scale * z
             # the axis in the carrier's axes
@@ -131,6 +135,7 @@ def edge_edge(rel, carrier_half, partner_half, axis, y):
     a0, a1, a2 = rel[REL_D], rel[REL_D + 1], rel[REL_D + 2]
     for k in range(3):
         if k != j:
+            # the axis points out of the partner: the carrier's nearest edge lies against it, the partner's along it
             component = axis[0] * rel[k] + axis[1] * rel[3 + k] + axis[2] * rel[6 + k]
             side = -carrier_half[k] if component > 0.0 else carrier_half[k]
             a0 += side * rel[k]
@@ -151,6 +156,7 @@ def edge_edge(rel, carrier_half, partner_half, axis, y):
     y[0] = a0 + carrier_offset * x
     y[1] = a1 + carrier_offset * t
     y[2] = a2 + carrier_offset * z
+    # the axis separates the lines of the edges; they touch only where the nearest points lie on both edges
     return abs(carrier_offset) < carrier_half[j] + FACE_MARGIN and abs(partner_offset) < partner_half[i] + FACE_MARGIN
 
 
@@ -160,12 +166,14 @@ def _clip_polygon(n, polygon, k, side, limit, result):
     count = 0
     for i in range(n):
         start, end = polygon[i], polygon[(i + 1) % n]
+        # corners on the limit count as inside, so that two faces of one size keep their four corners
         a, b = limit - side * start[k], limit - side * end[k]
         if a >= 0.0:
             for m in range(3):
                 result[count, m] = start[m]
             count += 1
         if (a >= 0.0) != (b >= 0.0):
+            # the ends lie on different sides of the limit: a - b is not zero
             fraction = a / (a - b)
             for m in range(3):
                 result[count, m] = start[m] + fraction * (end[m] - start[m])

@@ -56,6 +56,7 @@ def lowest_rim_point(n0, n1, n2, axes):
     """
     a, x, u, w = axes[0], axes[1], axes[2], axes[3]
     projection = n0 * a[0] + n1 * a[1] + n2 * a[2]
+    # component of the normal across the axis: as long as the sine of the lean; the lowest point lies opposite to it
     m0, m1, m2 = n0 - projection * a[0], n1 - projection * a[1], n2 - projection * a[2]
     square = m0 * m0 + m1 * m1 + m2 * m2
     sine = math.sqrt(square)
@@ -98,6 +99,7 @@ def load_directions(slots, rel, radius, x):
     projection = p0 * rel[2] + p1 * rel[5] + p2 * rel[8]
     x[0], x[1], x[2] = p0 - projection * rel[2], p1 - projection * rel[5], p2 - projection * rel[8]
     if x[0] * x[0] + x[1] * x[1] + x[2] * x[2] <= min_offset_squared:
+        # rounding would turn the points under a centred load: the x axis is fixed to the stone
         x[0], x[1], x[2] = rel[0], rel[3], rel[6]
     if total == 0.0 or x[3] * x[3] + x[4] * x[4] <= min_offset_squared:
         x[3], x[4], x[5] = x[0], x[1], 0.0
@@ -123,6 +125,7 @@ def set_rim_contact(is_deepest, sine, radius, axes, frame, row):
     if sine == 0.0:
         return
     row[SIMULTANEITY_WINDOW] = RIM_SIMULTANEITY
+    # the bias of rolling applies to the lowest point only
     if not is_deepest:
         return
     a = axes[0]
@@ -167,6 +170,7 @@ def rolling_bias(row, x, y, z, step, bias):
     e0, e1, e2 = w1 * s2 - w2 * s1, w2 * s0 - w0 * s2, w0 * s1 - w1 * s0
     # axis at the end of the step by Rodrigues' formula, exact for a constant spin
     spin = math.sqrt(w0 * w0 + w1 * w1 + w2 * w2)
+    # without spin the axis stays where it is, and the lowest point with it
     if spin > 0.0:
         c, s = math.cos(spin * step), math.sin(spin * step) / spin
         axial = (1.0 - c) * (w0 * a0 + w1 * a1 + w2 * a2) / (spin * spin)
@@ -210,10 +214,12 @@ def faces_opposed(rel, carrier_half, partner_half, rims, partner_rims):
     rims, partner_rims : (4, 2) arrays, m
         Bounding circles of the carrier and of the partner.
     """
+    # a stone beside the other or on its side has no face opposed to one of the other
     if abs(rel[8]) <= MIN_FACING_COSINE or abs(rel[REL_D + 2]) <= partner_half[2] + MIN_JOINT_HEIGHT_RATIO * carrier_half[2]:
         return False
     is_above = rel[REL_D + 2] > 0.0
     # tangent of the angle between the axes
     lean = math.sqrt(max(1.0 - rel[8] * rel[8], 0.0)) / abs(rel[8])
+    # a stone upside down shows its other face
     lower_down = is_above == (rel[8] > 0.0)
     return _rim_touches(lean, partner_rims, 1 if is_above else 0) and _rim_touches(lean, rims, 0 if lower_down else 1)

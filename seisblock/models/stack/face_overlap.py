@@ -43,6 +43,7 @@ def _outline(box, side, pile, plan):
 @kernel(_t.boolean(_t.float64, _t.float64, VECTOR), inline=True)
 def _inside_outline(x, y, plan):
     """Return whether a point lies inside an outline, within a margin."""
+    # stones in line share outlines: without the margin, rounding would drop their corners
     if plan[0] > 0.0:
         return x * x + y * y < (plan[0] + FACE_MARGIN) ** 2
     return abs(x) < plan[1] + FACE_MARGIN and abs(y) < plan[2] + FACE_MARGIN
@@ -55,6 +56,7 @@ def _add_point(count, rise, y, normal, is_lowest, points):
     # parallel tangents have no common normal: the outlines touch without crossing
     if count >= MAX_SHARED_POINTS or size < MIN_NORMAL_LENGTH:
         return count
+    # two rows for one point would leave the shares of its load undetermined
     for i in range(count):
         if (points[i, 0] - y[0]) ** 2 + (points[i, 1] - y[1]) ** 2 + (points[i, 2] - y[2]) ** 2 < MERGE_DISTANCE**2:
             return count
@@ -127,6 +129,7 @@ def _contained_points(count, side, view, lower_face, upper_face, work, points):
         else:
             _corner(q, upper_face[3], y[3:], upper_face, view, y)
         if _inside_outline(y[0], y[1], lower_face):
+            # the first point of a rim is its lowest
             is_lowest = 1.0 if q == 0 and upper_face[0] > 0.0 else 0.0
             count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, is_lowest, points)
     for i in range(3):
@@ -213,10 +216,12 @@ def _side_rim_points(count, side, view, lower_face, upper_face, work, points):
         a, b, c = e0 * e0 + e1 * e1, start[0] * e0 + start[1] * e1, start[0] ** 2 + start[1] ** 2 - radius * radius
         # side and circle intersect where |start + s e| = radius, a quadratic in s
         root = b * b - a * c
+        # a side that misses the circle, or only touches it, does not cross it
         if root <= 0.0:
             continue
         for k in range(2):
             s = (-b + (math.sqrt(root) if k == 0 else -math.sqrt(root))) / a
+            # crossings of the line beyond the ends of the side; the ends themselves are corners, added before
             if not 0.0 < s < 1.0:
                 continue
             x0, x1 = start[0] + s * e0, start[1] + s * e1
@@ -263,6 +268,7 @@ def face_overlap_points(c, p, rel, pile, axis, work, points):
     # the face with the wider gap is the reference, as in the separating-axis test
     is_flipped = _face_gap(upper_side, view, upper_face, lower_face) > gap + AXIS_BIAS
     if is_flipped:
+        # from here on all is in the axes of the reference face; the points return to the partner's at the end
         side = upper_side
         for i in range(4):
             lower_face[i], upper_face[i] = upper_face[i], lower_face[i]

@@ -69,6 +69,7 @@ def _contacts_joint_points(count, j, rel, bodies, dt, pile, memory):
             x, y, z = point[0], point[1], k[LEVEL]
             s0 = rel[9] + rel[0] * x + rel[1] * y + rel[2] * z
             s1 = rel[10] + rel[3] * x + rel[4] * y + rel[5] * z
+            # no face of the partner lies under the point: the test of the hulls finds what touches there
             if abs(s0) > half[0] or abs(s1) > half[1]:
                 total[OUTSIDE] += 1.0
                 slot[ACTIVE] = 0.0
@@ -183,6 +184,7 @@ def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memor
         for q in range(4):
             slot = rim[q]
             new_count = add_contact(count, c, p, slot, slot[POSITION + 2] - pile.boxes[p, 2], max_gap, k, bodies, dt, pile, memory)
+            # a point too far away adds no row
             if new_count > count:
                 set_rim_contact(q == 0, sine, radius, axes, ground, memory.constraint_rows[count])
             count = register_slot(count, new_count, FROM_PAIR, pair, 0, 4 * i + q, slot, memory.contact_ids)

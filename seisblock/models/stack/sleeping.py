@@ -78,6 +78,7 @@ def _find_support(i, n, count, memory):
                 support_points[0, SUPPORT_NORMAL + m] = side * row[NORMAL + m]
             alignment += support_points[0, SUPPORT_NORMAL + m] * side * row[NORMAL + m]
             point[POINT_OFFSET + m] = row[arm + m]
+            # the first load asleep is that of the last solved step
             point[POINT_FORCE + m] = side * row[IMPULSE + m] / press_time
         # the points must share one normal to form an elastic bed
         if alignment < 1.0 - 1e-9:
@@ -105,6 +106,8 @@ def _triangle_area(a, b, c, head):
 @kernel(_t.boolean(_t.int64, MATRIX), inline=True)
 def _remove_tension(points, support_points):
     """Remove tension by adding a self-equilibrated force of four points; return whether no point pulls."""
+    # any multiple of the self-equilibrated force leaves force and moment as they are: interval of multiples without
+    # tension
     low, high = -math.inf, math.inf
     for k in range(1, points + 1):
         pressure, self_stress = support_points[k, POINT_PRESSURE], support_points[k, SELF_STRESS]
@@ -116,6 +119,7 @@ def _remove_tension(points, support_points):
             return False
     if low > high:
         return False
+    # the smallest change that removes the tension: none if no point pulls
     shift = min(max(0.0, low), high)
     for k in range(1, points + 1):
         support_points[k, POINT_PRESSURE] = max(support_points[k, POINT_PRESSURE] + shift * support_points[k, SELF_STRESS], 0.0)
@@ -157,6 +161,7 @@ def _support_moments(points, support_points):
     a, b, c, d, e, f = a + size * x * x, b + size * x * y, c + size * x * z, d + size * y * y, e + size * y * z, f + size * z * z
     p, q, r = d * f - e * e, c * e - b * f, b * e - c * d
     determinant = a * p + b * q + c * r
+    # points along a line carry no moment about it
     if determinant <= MIN_WIDTH_RATIO * size**3:
         return False
     head[SUPPORT_MOMENTS] = p / determinant
@@ -226,6 +231,7 @@ def can_support(n, bodies, a0, a1, a2, pile, memory):
     """Add the support forces of the sleeping bodies; return whether all supports can carry their load."""
     kick_time = memory.step_info[KICK_TIME]
     for i in range(n):
+        # kept apart: if a support fails, the stones wake from the forces before this trial
         for k in range(1, memory.sleep_states[i, SUPPORT_POINTS] + 1):
             for m in range(3):
                 memory.support_points[i, k, LAST_FORCE + m] = memory.support_points[i, k, POINT_FORCE + m]
@@ -241,6 +247,7 @@ def can_support(n, bodies, a0, a1, a2, pile, memory):
         t0, t1, t2 = -b[L] / kick_time - b[T], -b[L + 1] / kick_time - b[T + 1], -b[L + 2] / kick_time - b[T + 2]
         if not _distribute_load(points, f0, f1, f2, t0, t1, t2, memory.support_points[i]):
             return False
+        # load from above and support force together now bring the stone to rest
         b[F] = w0
         b[F + 1] = w1
         b[F + 2] = w2
@@ -290,9 +297,11 @@ def put_to_sleep(count, n, pile, memory):
         # spins count as speeds at a radius of gyration
         gyration_squared = (inertia[INERTIA] + inertia[INERTIA + 4] + inertia[INERTIA + 8]) / inertia[MASS]
         speed_squared = v[0] ** 2 + v[1] ** 2 + v[2] ** 2 + gyration_squared * (v[3] ** 2 + v[4] ** 2 + v[5] ** 2)
+        # a moving stone counts from zero again; the surplus after a wake-up stays
         sleep_state[STILL_STEPS] = sleep_state[STILL_STEPS] + 1 if speed_squared < limit else min(sleep_state[STILL_STEPS], 0)
         if sleep_state[STILL_STEPS] < SLEEP_DELAY_STEPS:
             continue
+        # a stone without a support is examined again only after another delay
         sleep_state[STILL_STEPS] = 0
         if _find_support(i, n, count, memory) and not _support_moments(sleep_state[SUPPORT_POINTS], memory.support_points[i]):
             sleep_state[SUPPORT_POINTS] = 0
