@@ -190,7 +190,7 @@ def test_report_outcome_equals_solve_rock(pages):
     outcome = solve_rock(load_block("gravestone"), motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")).outcome
     assert outcome.overturned
     assert f"overturning to {outcome.overturned_towards[0]}EW at {outcome.overturning_time_s:.2f}\xa0s" in pages["en"]
-    assert re.search(r"Nearest change of the result at scale factor \d\.\d{3}", pages["en"])
+    assert re.search(r"Nearest scale factor at which the result changes: \d\.\d{3}", pages["en"])
     assert "未満では転倒しません" in pages["ja"]
 
 

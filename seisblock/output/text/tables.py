@@ -224,14 +224,14 @@ def format_range(low: str, high: str) -> str:
 
 
 def format_share_interval(interval: tuple[float, float]) -> str:
-    """Return an interval of shares in per cent, with one decimal for ends that would round to 0 or 100.
+    """Return an interval of shares in per cent, with one decimal where whole numbers would round to 0 or 100 and tenths do not.
 
     Examples
     --------
     >>> format_share_interval((0.297, 0.438)), format_share_interval((0.0, 0.018)), format_share_interval((0.0013, 0.9996))
-    ('30-44 %', '0-2 %', '0.1-100.0 %')
+    ('30-44 %', '0-2 %', '0.1-100 %')
     """
-    low, high = (f"{100.0 * end:.{1 if 0.0 < end < 0.005 or 0.995 <= end < 1.0 else 0}f}" for end in interval)
+    low, high = (f"{100.0 * end:.{1 if 0.0005 <= end < 0.005 or 0.995 <= end < 0.9995 else 0}f}" for end in interval)
     return gettext("{low}-{high} %", low=low, high=high)
 
 

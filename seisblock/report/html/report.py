@@ -126,7 +126,13 @@ def _body(data: ReportData, body: BodyResponses) -> dict[str, Any]:
         f"α {math.degrees(block.slenderness):.2f}°",
     ]
     facts += [gettext(describe_edges(block))] if block.inset else []
-    facts += [f"μ {friction:g}\u00a0/\u00a0{body.subject.mu_kinetic:g}"] if friction is not None else []
+    if friction is not None:
+        kinetic = body.subject.mu_kinetic
+        facts.append(
+            gettext("mu {mu:g}", mu=friction)
+            if kinetic == friction
+            else gettext("mu {mu:g}, kinetic {kinetic:g}", mu=friction, kinetic=kinetic)
+        )
     sections = [_section(data, body, effects) for effects in _effects_by_model(body)]
     return {"name": gettext(body.subject.name), "about": join_list(facts), "models": _models(body), "sections": sections}
 

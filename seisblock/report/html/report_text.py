@@ -92,9 +92,9 @@ def share_caveat(effect: ModelResponse) -> Iterator[str]:
     if effect.governing is None or effect.governing.probability is None:
         return
     if _overturned_share(effect) == 0.0:
-        yield gettext("In shaking-table runs of two granite rocks, 3 % of those predicted 0/20 overturned.")
+        yield gettext("In shaking-table runs of two granite rocks, 3 % of those with 0 of 20 samples overturning did overturn.")
     elif _overturned_share(effect) == 1.0:
-        yield gettext("In shaking-table runs of two granite rocks, 2 % of those predicted 20/20 did not overturn.")
+        yield gettext("In shaking-table runs of two granite rocks, 2 % of those with 20 of 20 samples overturning did not overturn.")
 
 
 def scatter_text(effects: Sequence[ModelResponse]) -> str:
@@ -119,7 +119,7 @@ def _margin_sentences(margin: Margin) -> Iterator[str]:
     if margin.nearest_flip is None:
         yield gettext("Same result at all scale factors up to {limit:g}.", limit=margin.limit)
     else:
-        yield gettext("Nearest change of the result at scale factor {factor:.3f}.", factor=margin.nearest_flip)
+        yield gettext("Nearest scale factor at which the result changes: {factor:.3f}.", factor=margin.nearest_flip)
     first = next((window for window in margin.windows if window.overturned), None)
     if first is not None:
         yield gettext("Smallest scale factor to overturning: {factor:.3f} (of those examined).", factor=first.first)
