@@ -274,6 +274,7 @@ def fit_block(
     sample, effective = sample_posterior(
         experiment, family, lapse_rate, record_folds[experiment.record], runs=runs, seed=seed, progress=progress
     )
+    # importance weights of each lapse rate (row) with each block (column)
     weights = np.exp(sample.log_weights(log_likelihood(sample.shares, *experiment.outcome_counts(), lapse_rate)))
     weights /= weights.sum()
     # marginal over the lapse rate
@@ -286,6 +287,7 @@ def fit_block(
     parameters = marginals(family, sample.unit_points, weights, lapse_rate, level)
     parameter_correlations = correlations(family, sample.unit_points, block_weights)
     median_point = medians(sample.unit_points, block_weights)[None, :]
+    # a stream of its own: the draws do not depend on random numbers used before
     draw_rows = np.random.default_rng([seed, 2]).choice(len(block_weights), POSTERIOR_DRAWS, p=block_weights)
     return BlockFit(
         experiment,

@@ -110,6 +110,7 @@ def stopped_run_notes(body_runs: Sequence[Exceedances], suite: Suite, measure: I
         stopped_runs = np.argwhere(~runs.completed)
         if not len(stopped_runs):
             continue
+        # the samples of one motion at one level count as one place
         places = list(dict.fromkeys((int(motion), int(level)) for motion, level, _ in stopped_runs))
         names = [f"{_motion_label(suite, m)} {runs.levels[m, n] / size:.4g} {unit}".strip() for m, n in places[:MAX_RUN_NAMES]]
         text = (
@@ -181,6 +182,7 @@ def find_levels(shares_at: Callable[[float], FloatArray], middle: float, steps: 
         Ratio of successive levels of the search: 2, doubling and halving.
     """
     checks.integer("the number of levels", steps, minimum=2)
+    # the shares at the start serve both directions of the search
     first = shares_at(middle)
     low, high = (
         _extend_level(shares_at, middle, 1.0 / step, first, lambda s: s <= LOW_SHARE),
@@ -247,6 +249,7 @@ class StudyPlan:
             ends = end_states(replace(solver_body, body=aligned_body), shaking, factors, draws)
             exceeded = np.stack([limit.exceeded(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
             if ends.gave_up is not None:
+                # the state of a stopped run is not its result: it counts as no exceedance in this direction
                 stopped_mask = ends.gave_up.reshape(factors.size, versions)
                 exceeded &= ~stopped_mask[..., None]
                 gave_up |= stopped_mask
@@ -372,6 +375,7 @@ def run_fragility(
     grids = _grids(study, fit_options, levels, steps)
     body_runs = _run_all(study, fit_options, grids, progress)
     curves, bands = zip(*(item for exceedances in body_runs for item in estimate_curves(exceedances, suite, fit_options)), strict=True)
+    # one curve is enough for a study
     if all(curve.median is None for curve in curves):
         first = curves[0]
         raise ParameterError("{body}, {limit}: {why}", body=body_name(first.body), limit=describe_limit(first.limit), why=first.problem)
@@ -432,6 +436,7 @@ def _grids(study: StudyPlan, fit_options: FitOptions, levels: ArrayLike | None, 
             ]
             exceeded = np.reshape([limits[0, 0] for limits, _ in runs], (len(study.bodies), motions, -1))
             completed_counts = np.reshape([completed[0, 0] for _, completed in runs], (len(study.bodies), motions)).sum(axis=1)
+            # without a completed run the share is 0, and the search goes on
             return np.asarray(exceeded.sum(axis=1) / np.maximum(completed_counts, 1)[:, None])
 
         grid = find_levels(
@@ -450,6 +455,7 @@ def _run_all(study: StudyPlan, fit_options: FitOptions, grids: list[FloatArray],
     versions = 1 if study.draws is None else len(study.draws)
     runs_per_motion = grids[0].shape[1] * versions
     total = runs_per_motion * len(study.suite.motions) * len(study.bodies)
+    # each run repeats in every azimuth: the limit holds for all of them together
     directions = max(sweep_azimuths(body.body).size for body in study.bodies) if study.suite.all_azimuths else 1
     check_limit(N_("runs"), total * directions, MAX_CELLS)
     results, count = [], 0

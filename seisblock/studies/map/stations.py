@@ -210,6 +210,7 @@ def survey_stations(
         raise ParameterError("no station {station!r} in these records", station=read_options.station)
     if not reports:
         raise ParameterError("no records; give files, folders or archives of one earthquake")
+    # stations without measures come last
     reports.sort(key=lambda item: (item.pga_m_s2 is not None, *item.effect.severity, item.pga_m_s2 or 0.0), reverse=True)
     earthquake, origin = (None, "") if reference is None else (reference.earthquake, reference.origin_told)
     return Stations(tuple(reports), earthquake, origin, preparation)
@@ -220,6 +221,7 @@ def _recordings(records: Station | Iterable[Station], read_options: ReadOptions)
     if not single and not isinstance(records, Iterable):
         raise KindError("expected names or records of stations, found {found}", found=checks.type_name(records))
     sources: Iterable[Any] = [records] if single else records  # type: ignore[assignment]
+    # neighbouring names are expanded together and read lazily; the order of the input remains
     for is_name, group in groupby(sources, key=lambda source: isinstance(source, (str, PathLike))):
         if is_name:
             yield from iter_records([str(source) for source in group], read_options)
@@ -230,6 +232,7 @@ def _recordings(records: Station | Iterable[Station], read_options: ReadOptions)
 def _with_progress(reports: Iterable[StationReport | None], progress: Progress | None) -> Iterator[StationReport | None]:
     for count, report in enumerate(reports, start=1):
         if progress is not None:
+            # the total is unknown while records are read lazily
             progress(count, count)
         yield report
 
@@ -266,10 +269,12 @@ def _assess_station(
         "earthquake": earthquake,
         "origin_told": "" if earthquake is None else format_local_time(processed_record, earthquake.origin_time),
     }
+    # a record without measures still has a position and a time
     try:
         measured_fields = _measure_record(processed_record)
     except SeisblockError as error:
         return StationReport(name, **site_fields, failure=error.message)  # type: ignore[arg-type]
+    # a failed response leaves the measures of the station
     try:
         effect, failure = subject.evaluate(processed_record) if subject is not None else StationResult(), None
     except SeisblockError as error:
@@ -294,6 +299,7 @@ def _measure_record(record: Record) -> dict[str, Any]:
 
 def _outline(row: FloatArray) -> tuple[tuple[float, float], ...]:
     """Return minima and maxima of a row over equal intervals."""
+    # `reduceat` requires rising starts
     starts = np.unique(np.linspace(0, row.size, min(OUTLINE_POINTS, row.size), endpoint=False).astype(int))
     return tuple(zip(np.minimum.reduceat(row, starts).tolist(), np.maximum.reduceat(row, starts).tolist(), strict=True))
 

@@ -302,6 +302,7 @@ def assess_cemetery(
     outcomes = stone_outcomes(cemetery, shaking, method) if outcomes is None else outcomes
     stones = stone_results(cemetery, outcomes.thresholds, outcomes.falls, outcomes.probabilities, width=method.width)
     falls = _repeat_counts(cemetery, outcomes.falls)
+    # simulated stones use no PGV, so that its filter does not matter
     highpass_range = None if method.criterion == "simulate" else shaking.usual_highpass
     rate, ratios = rate_from_stones(falls, method.confidence), cemetery.ratios
     return CemeteryRate(
@@ -309,6 +310,7 @@ def assess_cemetery(
         shaking.pga,
         shaking.frequency,
         _threshold(cemetery, shaking, method),
+        # only the fitted criterion distinguishes stones with a dowel
         _threshold(cemetery.with_dowels(), shaking, method) if method.criterion == "furukawa" else None,
         rate.rate,
         rate.rate_interval,
@@ -378,6 +380,7 @@ def _either_component(
 ) -> CemeteryRate:
     """Return the assessment of simulated stones, each of which falls if any component overturns it."""
     row_falls = either([outcome.falls for outcome in outcomes])
+    # the same seed draws the same samples under each component
     probabilities = either([outcome.samples for outcome in outcomes if outcome.samples is not None]).mean(axis=1)
     stones = stone_results(cemetery, outcomes[0].thresholds, row_falls, probabilities, width=method.width)
     falls, ratios = _repeat_counts(cemetery, row_falls), cemetery.ratios
@@ -394,6 +397,7 @@ def _either_component(
         gravity=method.gravity,
         progress=progress,
     )
+    # PGA and frequency remain those of the component with most falls; rates by model refer to one component
     return replace(
         largest,
         component=EITHER_COMPONENT,
