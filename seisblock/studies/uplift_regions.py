@@ -206,12 +206,14 @@ def harmonic_blocks(
     if sizes:
         if "alpha" in overrides or "gamma" in overrides:
             raise BodyError("`alpha` and `gamma` are ratios of the sizes; give sizes or ratios, not both")
+        # sizes give alpha and gamma: a placeholder keeps the combinations of the others
         grid["alpha"] = grid["gamma"] = (float("nan"),)
     check_limit(N_("combinations"), math.prod(len(values) for values in grid.values()), MAX_CELLS)
     for values in itertools.product(*grid.values()):
         combination = dict(zip(grid, values, strict=True))
         alpha, gamma, phi, rho = (combination.pop(name) for name in ("alpha", "gamma", "phi", "rho"))
         if sizes:
+            # with stiffnesses beta follows from these, unless it is given
             beta = None if sizes.get("stiffness") is not None and "beta" not in overrides else combination["beta"]
             yield spring_block(**sizes, beta=beta, damping=combination["damping"]), phi, rho
         else:

@@ -153,6 +153,7 @@ def _with_distinct_names(specs: Sequence[BodySpec]) -> list[BodySpec]:
 
 def _with_kind(spec: BodySpec) -> BodySpec:
     values = dict(spec.parameters)
+    # a name of `KINDS` stays a kind; any other is the name of a body
     kind = values.get("kind")
     if not isinstance(kind, str) or kind in KINDS or spec.description is not None:
         return spec
@@ -205,6 +206,7 @@ def assess_scenario(
     results = run_cases(accepted, pairs, draws, variation=VERSIONS if is_scaled else ParameterVariation(), progress=progress)
     answers = [ObjectRisk(body.name, failure=body.reason) for body in bodies if isinstance(body, RejectedBody)]
     for index, body in enumerate(accepted):
+        # a run stands for both horizontals: if one was stopped, whether the object falls is unknown
         complete = ~results.gave_up[index].any(axis=2)
         counts = (results.fell[index].any(axis=2) & complete).sum(axis=1)
         runs = complete.sum(axis=1)
@@ -212,6 +214,7 @@ def assess_scenario(
             answers.append(ObjectRisk(body.name, failure=lazy_gettext("all runs were stopped: use a smaller `restitution`")))
             continue
         fell = results.fell[index].any(axis=2)[complete]
+        # the larger displacement of the two directions
         shift = results.shift_m[index].max(axis=2)[complete]
         by_side = results.fell[index][complete].sum(axis=0)
         overturning, moved = float(fell.mean()), float((fell | (shift > MOVED_M)).mean())
@@ -264,8 +267,10 @@ def _with_advice(risk: ObjectRisk, block: Block, body: SolverBody) -> ObjectRisk
     if risk.class_name in (LIKELY, MAY):
         advice.append(lazy_gettext("Fasten it to wall or floor near the top, or widen the base or lower the centre of gravity."))
         advice.append(lazy_gettext("Keep people, exits and fragile objects {distance:.1f} m away until then.", distance=risk.fall_reach_m))
+    # friction above the slenderness: the object rocks before it slides
     elif risk.class_name == MOVES and body.options.mu > slenderness:
         advice.append(lazy_gettext("It rocks: check the margin at a stronger scenario, and leave a gap to its neighbours."))
+    # stouter than the friction of the mat: it cannot rock even there
     elif risk.class_name == MOVES and slenderness > MAT_FRICTION:
         advice.append(lazy_gettext("It slides: a non-slip mat holds it, on which it cannot rock."))
     elif risk.class_name == MOVES and (risk.displacement_m or 0.0) > MAX_GAP_M:

@@ -149,6 +149,7 @@ def scale_factors(
     checks.integer("the number of steps", steps, minimum=1)
     check_limit(N_("factors"), steps, MAX_RUNS)
     grid = [limit * i / steps for i in range(steps + 1)]
+    # the scan starts at factor 0 without displacement, so that its first step can bracket a factor too
     values = [0.0, *_scan(displacement, grid[1:], progress)]
     peak = float(np.abs(motion.horizontal).max())
     factors = []
@@ -241,6 +242,7 @@ def jump_displacement(block: TwoLayerBlock, motion: Motion, options: JumpOptions
 
     if flight_only:
         return partial(single, key="jump_displacement_m")
+    # Windows and tenons have no vectorized solver
     if options.windows or options.tenon:
         return single
     rows = {key: value for key, value in options.keywords().items() if key not in ("windows", "contact", "tenon")}
@@ -292,7 +294,9 @@ def slide_displacement(
 
     def vectorized(factors: FloatArray) -> FloatArray:
         rows = np.tile(np.asarray(p, dtype=np.float64), (factors.size, 1))
+        # the factor scales the vertical component as well
         result = integrate_many(SLIDE, motion, rows, np.zeros(4), STICK, gains=factors[:, None] * [1.0, 0.0, up])
+        # lift-off leaves a run without a result: refused as in a single run
         for row in np.flatnonzero(result.final_mode == UNDEFINED)[:1]:
             raise_lift_off(motion, float(result.end_time[row]))
         highest, _, lowest, _ = result.extrema[:, SLIP].T

@@ -161,6 +161,7 @@ def sampled_overturns(
     options = RockOptions(vertical=vertical, gravity=gravity)
     blocks, index = _distinct_blocks(cemetery, inset, width)
     draws = draw_samples(runs, checks.seed(seed))
+    # one batch of all stones and samples keeps all cores busy
     parts = [sample_rock_params(block, motion, variation, draws, options) for block in blocks]
     stones = replace(
         parts[0],
@@ -209,6 +210,7 @@ def simulated_curve(
     points: list[CurvePoint] = []
     options: dict[str, Any] = {"inset": inset, "width": width, "vertical": vertical, "gravity": gravity}
     for components, frequency in motions:
+        # all components share one factor: their ratio stays that of the record
         peak = max(float(np.abs(motion.horizontal).max()) for motion in components)
         for level in pga:
             falls = either([simulated_overturns(cemetery, motion, scale=level / peak, **options) for motion in components])
