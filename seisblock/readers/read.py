@@ -187,6 +187,7 @@ def read_all(
         records: list[Record] = []
         for reader, run in groupby(names, _special_reader):
             if reader is None:
+                # neighbouring files stay together: components of one recording may lie in several of them
                 records += read_all(list(run), **options.keywords)
             else:
                 records += [record for name in run for record in reader(name, options)]
@@ -248,6 +249,7 @@ def _analytic_record(name: str, options: ReadOptions) -> Record:
     ParameterError
         If one of them is given.
     """
+    # the budget is no option of the caller
     names = [f"`{f.name}`" for f in fields(options) if f.name != "budget" and getattr(options, f.name) != f.default]
     if names:
         raise ParameterError(
@@ -268,6 +270,7 @@ def read_source(source: RecordSource, options: ReadOptions) -> Record:
     """
     if source.failure is not None:
         raise source.failure
+    # files of a folder are read by name, members of an archive from their bytes
     if not source.blobs:
         return read(list(source.files), **options.keywords)
     options = _load_options(replace(options, budget=ReadBudget()))
@@ -302,6 +305,7 @@ def _as_list(locations: Location | Iterable[Location]) -> list[Location]:
 
 def _check_duplicates(names: Sequence[str]) -> None:
     """Raise if a file is given more than once; results would count it as several records."""
+    # two spellings of one path are one file
     counts = Counter(STDIN if name == STDIN else str(Path(name).absolute()) for name in names)
     for name in names:
         count = counts[STDIN if name == STDIN else str(Path(name).absolute())]
@@ -328,6 +332,7 @@ def _group_name(group: Sequence[OpenedSource]) -> str:
 def _parse_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
     """Return the records, or single components, in a file or an archive."""
     files, inventories = unpack(blob, options)
+    # anything but the file itself comes from an archive
     bundle = {} if files[0] is blob else {"bundle": blob.name}
 
     def companions() -> tuple[RawFile, ...]:
