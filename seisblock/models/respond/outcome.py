@@ -110,6 +110,7 @@ class RespondOutcome(DisplayMixin):
 
 def mode_change(time_s: float, mode: int) -> ModeChange:
     """Return the entry of a mode of the model."""
+    # with the feet in their tenons the codes are shifted; a terminal mode counts as rest
     kind = mode % constants.TENON_OFFSET if mode >= 0 else constants.REST
     is_rotating = (
         kind in (constants.ROCK_RIGHT, constants.ROCK_LEFT) or constants.SLIDE_ROCK_RIGHT_PLUS <= kind <= constants.SLIDE_ROCK_LEFT_MINUS
@@ -127,6 +128,7 @@ def mode_changes(run: Run, start_s: float) -> list[ModeChange]:
     """Return the mode changes; an impact without a change of mode, corner or slip direction is none."""
     result: list[ModeChange] = []
     for time, target in zip(run.events.time.tolist(), run.events.target.tolist(), strict=True):
+        # an abandoned run has no further mode of the body
         if target == constants.GAVE_UP:
             continue
         entry = mode_change(start_s + time, target)
@@ -139,6 +141,7 @@ def phases(events: list[ModeChange], end_s: float) -> tuple[Phase, ...]:
     """Return the phases of one mode each; changes of corner or slip direction do not split a phase."""
     merged: list[ModeChange] = []
     for event in events:
+        # overturning ends the last phase and has no duration
         if event["mode"] != Mode.OVERTURNED and not (merged and merged[-1]["mode"] == event["mode"]):
             merged.append(event)
     ends = [event["time_s"] for event in merged[1:]] + [end_s]
@@ -183,6 +186,7 @@ def build_outcome(run: Run, params: RespondParams, start_s: float, sensitive: bo
         flights=_count_flights(run.events),
         impacts=int(final[constants.IMPACTS]),
         time_in_mode_s=time,
+        # the state holds energies per unit mass
         energy_friction_j=mass * float(final[constants.FRICTION]),
         energy_impacts_j=mass * float(final[constants.LOSS]),
         energy_ground_j=mass * float(final[constants.WORK]),
@@ -199,6 +203,7 @@ def build_outcome(run: Run, params: RespondParams, start_s: float, sensitive: bo
 def _count_flights(changes: EventLog) -> int:
     """Return the number of events that start a flight, rebounds included."""
     in_flight = (changes.target >= 0) & (changes.target % constants.TENON_OFFSET == constants.FLIGHT)
+    # a rebound leads from flight to flight through an impact
     is_rebound = changes.after[:, constants.IMPACTS] > changes.before[:, constants.IMPACTS]
     return int(np.count_nonzero(in_flight & ((changes.source % constants.TENON_OFFSET != constants.FLIGHT) | is_rebound)))
 
