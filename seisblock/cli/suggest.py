@@ -20,7 +20,7 @@ MIN_TYPO_LENGTH, TWO_TYPO_LENGTH = 3, 8
 """Shortest name, letters, for which one typing error, and two errors, are tolerated."""
 
 RELATED_OPTIONS = (
-    ("--body", "--bodies", "--block", "--stones", "--cemetery"),
+    ("--body", "--bodies", "--block", "--cemetery", "--stones"),
     ("--out", "--output", "--directory"),
     ("--runs", "--samples", "--perturb"),
 )
