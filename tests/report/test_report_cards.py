@@ -53,7 +53,7 @@ def test_shares_of_zero_and_one_carry_interval(share, message):
     result = effect("NS", None if share == 0.0 else 40.0, share)
     assert message in "".join(share_caveat(result)) and bool(message) == any("shaking-table runs" in text for text in card_text([result]))
     assert scatter_text([result]).startswith("Parameter variation only (model error not included): ")
-    assert "3 % of those with 0 of 20 samples overturning did overturn" in scatter_text([result])
+    assert "3 % of those predicted 0/20 did overturn" in scatter_text([result])
 
 
 def test_card_without_samples_has_no_shares():

@@ -154,7 +154,7 @@ def variation_text(probability: Probability, block: Block) -> str:
     return gettext(
         "Parameter variation only (model error not included): {sizes}, {edges}, {friction}, restitution ±{restitution:g}, "
         "amplitude ±{amplitude}, azimuth ±{azimuth:g} degrees. In 490 shaking-table runs of two granite rocks, 3 % of those "
-        "with 0 of 20 samples overturning did overturn and 2 % of those with 20 of 20 did not.",
+        "predicted 0/20 did overturn and 2 % of those predicted 20/20 did not.",
         sizes=lazy_gettext("width and height ±{share}", share=format_share(versions.size)),
         edges=sampled_edges(block, probability.ranges, versions.inset),
         friction=(ranges.friction_text if versions.mu else None) or lazy_gettext("friction ±{share}", share=format_share(versions.mu)),
