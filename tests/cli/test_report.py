@@ -191,7 +191,7 @@ def test_report_outcome_equals_solve_rock(pages):
     assert outcome.overturned
     assert f"overturning to {outcome.overturned_towards[0]}EW at {outcome.overturning_time_s:.2f}\xa0s" in pages["en"]
     assert re.search(r"Nearest scale factor at which the result changes: \d\.\d{3}", pages["en"])
-    assert "未満では転倒しません" in pages["ja"]
+    assert "転倒する最小の倍率：" in pages["ja"]
 
 
 def test_report_card_states_best_estimate(pages):
