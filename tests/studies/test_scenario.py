@@ -20,6 +20,8 @@ from seisblock.models.respond.solve import solve_respond
 from seisblock.models.rock.solve import solve_rock
 from seisblock.readers import read
 from seisblock.records import Motion, Preparation, Storey, motion_of, scale, scale_to_jma, synthetic_suite
+from seisblock.report.text.scenario import csv_columns
+from seisblock.report.text.scenario import tables as scenario_tables
 from seisblock.report.text.secure import measure_note
 from seisblock.studies.assessment import classify
 from seisblock.studies.fragility.run import run_fragility
@@ -27,8 +29,8 @@ from seisblock.studies.hazard.curve import Hazard, HazardCurve
 from seisblock.studies.intervals import clopper_pearson, clustered_interval
 from seisblock.studies.respond.probability import ParameterVariation
 from seisblock.studies.sampling import join_directions, sample
-from seisblock.studies.scenario import peaks
-from seisblock.studies.scenario.assess import CLASSES, assess_scenario, scenario_bodies
+from seisblock.studies.scenario import peaks, runs
+from seisblock.studies.scenario.assess import CLASSES, assess_scenario, scenario_bodies, versions_for
 from seisblock.studies.scenario.hazard import hazard_suite
 from seisblock.studies.scenario.motions import ScenarioTarget, motion_pairs, scenario_suite
 from seisblock.studies.scenario.restraint import case_demands, restraint_demand
@@ -395,3 +397,26 @@ def test_measure_note_marks_the_end_of_the_search():
     assert measure_note(Measure("width", 0.2, "m", 0.01, curve=curve)) == "narrowest base searched"
     assert measure_note(Measure("width", 0.5, "m", 0.0, curve=curve)) == ""
     assert measure_note(Measure("height", 0.5, "m", 0.0, curve=curve)) == "greatest height searched"
+
+
+def test_stopped_runs_are_excluded_and_named(monkeypatch):
+    """Object, record, component, number and time of the first of two stopped runs; the others give the probability."""
+    respond_many = runs.respond_many
+
+    def stop_two(params, motion, **options):
+        result = respond_many(params, motion, **options)
+        if motion.name != "EW" or not motion.record.source.endswith("_002"):
+            return result
+        stopped, end = result.gave_up.copy(), result.end_s.copy()
+        stopped[[0, 2]], end[[0, 2]] = True, (12.5, 11.25)
+        return replace(result, gave_up=stopped, end_s=end)
+
+    monkeypatch.setattr(runs, "respond_many", stop_two)
+    records = synthetic_suite(7.0, 20.0, 3, seed=3)
+    (risk,) = assess_scenario((SolverBody("shelf", Block(0.3, 1.2, name="shelf"), RespondOptions(mu=0.5)),), records)
+    assert risk.runs == 2 * 3 * versions_for(3) - 2
+    (sentence,) = risk.stopped
+    assert str(sentence).startswith("no result in 2 of ") and "synthetic_M7_R20_002 EW (stopped, first at 11.25 s)" in str(sentence)
+    assert any("shelf: no result in 2 of" in str(line) for line in scenario_tables([risk], "scenario"))
+    _, (row,) = csv_columns([risk])
+    assert "synthetic_M7_R20_002 EW" in row[-1]

@@ -48,12 +48,12 @@ def tables(results: Sequence[ObjectRisk], label: str) -> Iterator[Any]:
     yield styled_line(
         gettext("{scenario}, {objects}: {classes}", scenario=gettext(label), objects=count_text, classes=class_counts(results)), "bold"
     )
-    full = (_table(results), *_advice(results))
+    full = (_table(results), *_advice(results), *_stopped(results))
     if len(results) <= MAX_ROWS:
         yield from full
         return
     note = styled_line(gettext("{count} further objects", count=len(results) - MAX_ROWS), "dim")
-    yield Part(full, (_table(results[:MAX_ROWS]), *_advice(results[:MAX_ROWS]), note))
+    yield Part(full, (_table(results[:MAX_ROWS]), *_advice(results[:MAX_ROWS]), *_stopped(results[:MAX_ROWS]), note))
 
 
 def _table(results: Sequence[ObjectRisk]) -> Any:
@@ -82,6 +82,13 @@ def _advice(results: Sequence[ObjectRisk]) -> Iterator[Any]:
         yield styled_line(gettext("{names}: {text}", names=join_list(names), text=text))
 
 
+def _stopped(results: Sequence[ObjectRisk]) -> Iterator[Any]:
+    """Yield one line for each object and motion with runs without a result."""
+    for result in results:
+        for sentence in result.stopped:
+            yield styled_line(gettext("{names}: {text}", names=object_name(result), text=gettext(sentence)), "yellow")
+
+
 def csv_columns(results: Sequence[ObjectRisk]) -> tuple[list[str], list[list[Any]]]:
     """Return header and rows of ``--csv``: keys and numbers, advice and reason in the language of the locale."""
     header = [
@@ -100,7 +107,7 @@ def csv_columns(results: Sequence[ObjectRisk]) -> tuple[list[str], list[list[Any
             result.fall_reach_m,
             result.displacement_m,
             join_sentences(map(gettext, result.advice)),
-            result.failure and gettext(result.failure),
+            join_sentences(map(gettext, (*((result.failure,) if result.failure else ()), *result.stopped))) or None,
         ]
         for result in results
     ]

@@ -27,7 +27,7 @@ from seisblock.studies.batch.task import RejectedBody, build_solver_bodies
 from seisblock.studies.intervals import clopper_pearson, clustered_interval
 from seisblock.studies.sampling import MOVED_M, ParameterVariation
 from seisblock.studies.scenario.motions import motion_pairs
-from seisblock.studies.scenario.runs import VERSIONS, draw_cases, run_cases
+from seisblock.studies.scenario.runs import VERSIONS, CaseResults, Pairs, draw_cases, run_cases
 
 CLASSES = (LIKELY, MAY, MOVES, STAYS)
 """Classes of an object, worst first."""
@@ -76,6 +76,8 @@ class ObjectRisk(DisplayMixin):
     advice : tuple of str
     failure : str or None
         Reason for an object without a result.
+    stopped : tuple of str
+        One sentence per motion under which runs were stopped without a result: record, component, number, time of the first.
     """
 
     body: str
@@ -89,6 +91,7 @@ class ObjectRisk(DisplayMixin):
     displacement_m: float | None = None
     advice: tuple[str, ...] = ()
     failure: str | None = None
+    stopped: tuple[str, ...] = ()
 
 
 def scenario_bodies(
@@ -208,10 +211,12 @@ def assess_scenario(
     for index, body in enumerate(accepted):
         # a run stands for both horizontals: if one was stopped, whether the object falls is unknown
         complete = ~results.gave_up[index].any(axis=2)
+        stopped = _stopped_runs(results, index, pairs)
         counts = (results.fell[index].any(axis=2) & complete).sum(axis=1)
         runs = complete.sum(axis=1)
         if not runs.sum():
-            answers.append(ObjectRisk(body.name, failure=lazy_gettext("all runs were stopped: use a smaller `restitution`")))
+            text = lazy_gettext("all runs were stopped: use a smaller `restitution`")
+            answers.append(ObjectRisk(body.name, failure=text, stopped=stopped))
             continue
         fell = results.fell[index].any(axis=2)[complete]
         # the larger displacement of the two directions
@@ -230,6 +235,7 @@ def assess_scenario(
             None if not fell.any() else WIDTH if by_side[0] >= by_side[1] else DEPTH,
             block.height if fell.any() else None,
             float(np.quantile(standing, SHIFT_QUANTILE)) if standing.size else None,
+            stopped=stopped,
         )
         answers.append(_with_advice(answer, block, body))
     order = {name: rank for rank, name in enumerate(CLASSES)}
@@ -243,6 +249,28 @@ def assess_scenario(
             -(a.moved_probability or 0.0),
         ),
     )
+
+
+def _stopped_runs(results: CaseResults, index: int, pairs: Pairs) -> tuple[str, ...]:
+    """Return a sentence for each motion under which runs of an object were stopped without a result."""
+    sentences = []
+    for row, pair in enumerate(pairs):
+        for motion_index, motion in enumerate(pair):
+            # in cases with an even number the width lies along the first horizontal, in the others along the second
+            case = np.arange(results.gave_up.shape[2])
+            side = (case + motion_index) % 2
+            stopped = results.gave_up[index, row, case, side]
+            if stopped.any():
+                text = lazy_gettext(
+                    "no result in {count} of {all} runs under {record} {component} (stopped, first at {time:.2f} s)",
+                    count=int(stopped.sum()),
+                    all=int(stopped.size),
+                    record=(motion.record.source if motion.record is not None else "") or lazy_gettext("record"),
+                    component=motion.name,
+                    time=float(results.end_s[index, row, case, side][stopped].min()),
+                )
+                sentences.append(text)
+    return tuple(sentences)
 
 
 def versions_for(records: int) -> int:

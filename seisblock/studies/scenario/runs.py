@@ -37,11 +37,14 @@ class CaseResults:
     fell, gave_up : bool
     shift_m : m
         Residual displacement, absolute.
+    end_s : s
+        Time of rest, of overturning, or at which a run was stopped, from the first sample of the record.
     """
 
     fell: BoolArray
     gave_up: BoolArray
     shift_m: FloatArray
+    end_s: FloatArray
 
 
 def draw_cases(records: int, seed: int, *, versions: int = 1) -> FloatArray:
@@ -97,7 +100,7 @@ def run_cases(
     """
     cases = draws.shape[1]
     shape = (len(bodies), len(pairs), cases, 2)
-    fell, gave_up, shift = np.zeros(shape, bool), np.zeros(shape, bool), np.zeros(shape)
+    fell, gave_up, shift, end = np.zeros(shape, bool), np.zeros(shape, bool), np.zeros(shape), np.zeros(shape)
     groups: dict[tuple[object, ...], list[int]] = {}
     for index, body in enumerate(bodies):
         options: RespondOptions = body.options
@@ -119,14 +122,19 @@ def run_cases(
         )
         gains = np.tile(sample_gains(motion, variation, draws[r], first.vertical), (len(members), 1))
         results = respond_many(params, motion, gains=gains, settle_s=first.settle_s)
-        for values, target in ((results.overturned, fell), (results.gave_up, gave_up), (np.abs(results.final_displacement_m), shift)):
+        for values, target in (
+            (results.overturned, fell),
+            (results.gave_up, gave_up),
+            (np.abs(results.final_displacement_m), shift),
+            (motion.start_s + results.end_s, end),
+        ):
             by_case = values.reshape(len(members), cases)
             for k in range(2):
                 # the width lies along motion c in the cases of orientation c, the depth in the others
                 target[members, r, k::2, 0 if k == c else 1] = by_case[:, k::2]
         if progress is not None:
             progress(count, total)
-    return CaseResults(fell, gave_up, shift)
+    return CaseResults(fell, gave_up, shift, end)
 
 
 def case_params(body: SolverBody, pairs: Pairs, draws: FloatArray, variation: ParameterVariation) -> tuple[RespondBatchParams, FloatArray]:
