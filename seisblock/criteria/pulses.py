@@ -104,11 +104,15 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
         # same sign as the energy surplus while the angle increases, and smooth at the root
         return speed - 2 * p * math.sin((alpha - theta) / 2)
 
+    # a pulse that is long for the block overturns it as soon as it rocks: no bracket is left above the threshold
+    low = 1.0 + 1e-12
+    if surplus(low) >= 0.0:
+        return float(g * math.tan(alpha))
     # Housner's linear estimate as the upper end of the bracket, enlarged until the block overturns
     high = max(math.hypot(1.0, omega / p), 1.0 + 1e-9)
     while surplus(high) <= 0.0:
         high *= 1.5
-    return float(g * math.tan(alpha) * brentq(surplus, 1.0 + 1e-12, high, xtol=1e-12, rtol=1e-11))
+    return float(g * math.tan(alpha) * brentq(surplus, low, high, xtol=1e-12, rtol=1e-11))
 
 
 def one_sine_ratio(w: float) -> float:

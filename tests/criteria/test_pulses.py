@@ -73,3 +73,12 @@ def test_criterion_with_several_frequencies_counts_once():
     names = {row.criterion for row in rows}
     assert {"half sine, linear", "half sine, nonlinear"} <= names
     assert not any("half sine, exact" in name for name in names)
+
+
+@pytest.mark.parametrize("height", [0.003, 0.01, 0.1])
+def test_half_sine_that_is_long_for_the_block_overturns_at_its_threshold(height):
+    """A block of millimetres overturns as soon as it rocks; one of 10 cm requires little more."""
+    alpha, p = math.atan(1.0 / 3.0), math.sqrt(1.5 * G / (height * math.hypot(1.0, 1.0 / 3.0)))
+    ratio = half_sine_acceleration(alpha, p, 1.0, G) / (G * math.tan(alpha))
+    assert 1.0 <= ratio < 1.1
+    assert height > 0.005 or ratio == pytest.approx(1.0, abs=1e-9)

@@ -169,7 +169,15 @@ def planar_cases(stones: int, *, seed: int = SEED, runs: int = 200, names: Seque
     return cases
 
 
-def spatial_cases(stones: int, *, solver: str = "rigid3d", seed: int = SEED, runs: int = 100, names: Sequence[str] = NAMES) -> list[Case]:
+def spatial_cases(
+    stones: int,
+    *,
+    solver: str = "rigid3d",
+    variation: ParameterVariation = ParameterVariation(),
+    seed: int = SEED,
+    runs: int = 100,
+    names: Sequence[str] = NAMES,
+) -> list[Case]:
     """Return gravestones of a square base: probability of the object by the full response beside one run in three dimensions."""
     rng, cases = np.random.default_rng(seed + 1), []
     draws = draw_samples(stones * len(names), seed + 2, stones=1)
@@ -182,18 +190,19 @@ def spatial_cases(stones: int, *, solver: str = "rigid3d", seed: int = SEED, run
             stone = of_kind(Block(width, width * slenderness, width), "gravestone")
             shaken = [scaled(motion, factor) for motion in motions]
             try:
-                parts = [sample("respond", stone, motion, RespondOptions(mu=mu), runs, seed=1) for motion in shaken]
+                parts = [sample("respond", stone, motion, RespondOptions(mu=mu), runs, variation, seed=1) for motion in shaken]
             except SolverError:
                 continue
-            fell = _falls_in_three_dimensions(solver, stone, mu, shaken[0], draw)
+            fell = _falls_in_three_dimensions(solver, stone, mu, shaken[0], draw, variation)
             if fell is not None:
                 cases.append(Case(name, join_directions(parts).probability, fell))
     return cases
 
 
-def _falls_in_three_dimensions(solver: str, stone: Block, mu: float, motion: Motion, draw: np.ndarray) -> bool | None:
+def _falls_in_three_dimensions(
+    solver: str, stone: Block, mu: float, motion: Motion, draw: np.ndarray, variation: ParameterVariation
+) -> bool | None:
     """Return whether one sample of a stone and its shaking falls in three dimensions, None without a result."""
-    variation = ParameterVariation()
     if solver == "rigid3d":
         (outcome,) = rigid3d_outcomes(stone, motion, Rigid3dOptions(mu=mu), draw[None], variation, workers=1)
         return None if outcome is None else outcome.overturned
@@ -266,10 +275,15 @@ def main() -> None:
     """Print the table of each reference, whole and by record."""
     parser = argparse.ArgumentParser(description=main.__doc__)
     parser.add_argument("--stones", type=int, default=40, help="stones per motion")
+    parser.add_argument("--vary-restitution", type=float, default=0.1, help="half width in three dimensions")
     parser.add_argument("--reference", choices=("planar", "rigid3d", "stack"), action="append")
     options = parser.parse_args()
     for reference in options.reference or ("planar", "rigid3d", "stack"):
-        cases = planar_cases(options.stones) if reference == "planar" else spatial_cases(options.stones, solver=reference)
+        variation = ParameterVariation(restitution=options.vary_restitution)
+        if reference == "planar":
+            cases = planar_cases(options.stones)
+        else:
+            cases = spatial_cases(options.stones, solver=reference, variation=variation)
         brier = float(np.mean([(case.probability - case.fell) ** 2 for case in cases]))
         print(f"{reference}: {len(cases)} stones, Brier score {brier:.3f}, bias and slope {scores(cases)}")
         print(table(cases))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from seisblock.studies.sampling import ParameterVariation
 from tests.crosscheck.calibration import Case, bins, planar_cases, scores, spatial_cases
 
 SHORT = ("el_centro", "corralitos", "synthetic_M6.5_R20_003")
@@ -24,8 +25,11 @@ def test_probability_of_rock_equals_share_of_pendulums_that_overturn():
 
 @pytest.mark.slow
 def test_probability_of_object_equals_share_that_overturns_in_three_dimensions():
-    """Square gravestones under three components beside the full response under either horizontal."""
-    cases = spatial_cases(22, names=SHORT)
+    """Square gravestones under three components beside the full response under either horizontal.
+
+    The restitution does not vary: losses beyond a plastic impact, which planar samples contain, have no counterpart in three dimensions.
+    """
+    cases = spatial_cases(22, names=SHORT, variation=ParameterVariation(restitution=0.0))
     assert len(cases) >= 64 and sum(0.1 < case.probability < 0.9 for case in cases) >= 20
     assert np.abs(scores(cases)).max() < 3.0
 
