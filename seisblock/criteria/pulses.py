@@ -101,10 +101,13 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
             return y[1], p * p * (acceleration_ratio * math.sin(omega * t) * math.cos(angle) - math.sin(angle))
 
         theta, speed = solve_ivp(rate, (start, end), (0.0, 0.0), method="DOP853", rtol=1e-10, atol=1e-13 * alpha).y[:, -1]
-        # same sign as the energy surplus while the angle increases, and smooth at the root
-        return speed - 2 * p * math.sin((alpha - theta) / 2)
+        if theta < 0.0:
+            # back on its base: the equation holds for one corner, and its solution runs away to the other side
+            return -2 * p * math.sin(alpha / 2)
+        # same sign as the energy surplus while the angle increases, and smooth at the root; beyond half a turn it has long fallen
+        return speed - 2 * p * math.sin((alpha - min(theta, alpha + math.pi)) / 2)
 
-    # a pulse that is long for the block overturns it as soon as it rocks: no bracket is left above the threshold
+    # a pulse far longer than the block's time overturns it as soon as it rocks: no bracket is left above the threshold
     low = 1.0 + 1e-12
     if surplus(low) >= 0.0:
         return float(g * math.tan(alpha))

@@ -75,10 +75,9 @@ def test_criterion_with_several_frequencies_counts_once():
     assert not any("half sine, exact" in name for name in names)
 
 
-@pytest.mark.parametrize("height", [0.003, 0.01, 0.1])
-def test_half_sine_that_is_long_for_the_block_overturns_at_its_threshold(height):
-    """A block of millimetres overturns as soon as it rocks; one of 10 cm requires little more."""
-    alpha, p = math.atan(1.0 / 3.0), math.sqrt(1.5 * G / (height * math.hypot(1.0, 1.0 / 3.0)))
-    ratio = half_sine_acceleration(alpha, p, 1.0, G) / (G * math.tan(alpha))
-    assert 1.0 <= ratio < 1.1
-    assert height > 0.005 or ratio == pytest.approx(1.0, abs=1e-9)
+def test_half_sine_that_is_long_for_the_block_overturns_little_above_its_threshold():
+    """The factor on the threshold grows with the height, from a millimetre on."""
+    alpha, heights = math.atan(1.0 / 3.0), (0.001, 0.002, 0.003, 0.005, 0.01, 0.03, 0.1)
+    parameters = [math.sqrt(1.5 * G / math.hypot(height, height / 3.0)) for height in heights]
+    ratios = [half_sine_acceleration(alpha, p, 1.0, G) / (G * math.tan(alpha)) for p in parameters]
+    assert ratios == sorted(ratios) and 1.0 < ratios[0] < 1.002 and 1.1 < ratios[-1] < 1.13
