@@ -31,9 +31,10 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # the same examples in every run of continuous integration; fresh ones at a developer's desk
+# without a deadline, as the first example loads kernels
+hypothesis.settings.register_profile("desk", deadline=None)
 hypothesis.settings.register_profile("ci", derandomize=True, deadline=None)
-if os.environ.get("CI"):
-    hypothesis.settings.load_profile("ci")
+hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "desk")
 
 
 # as in the program: at the default threshold garbage collections take a sixth of the run time

@@ -64,7 +64,7 @@ def test_direction_name_is_component_or_azimuth():
     assert with_direction("448 mm", "NS", -0.448) == "448 mm to -NS"
     assert with_direction("0.0 mm", "NS", -1e-6) == "0.0 mm"
     with use_locale("ja"):
-        assert with_direction("448 mm", "NS", -0.448) == "-NS へ 448 mm"
+        assert with_direction("448 mm", "NS", -0.448) == "448 mm（-NS 側）"
         assert (phase_label("slip backward", "EW"), phase_label("rocks to +x", "127")) == ("-EW へ滑動", "方位 127° へロッキング")
 
 

@@ -88,7 +88,7 @@ def test_respond_many_excludes_unresolved_runs():
     settings = [respond_params(SLENDER, RespondOptions(**NEARLY_LOSSLESS)), respond_params(SLENDER, options=RespondOptions(mu=0.5))]
     fates = respond_many(settings, still_ground(1.0), initial=at_lean(SLENDER, 1e-8), settle_s=10.0)
     assert fates.gave_up.tolist() == [True, False]
-    with pytest.raises(SolverError, match=r"1 of 2 runs have no result: .* smaller restitution"):
+    with pytest.raises(SolverError, match=r"1 of 2 runs have no result: .* smaller `restitution`"):
         fates.require_complete()
 
 
