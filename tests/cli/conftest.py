@@ -5,7 +5,7 @@ import pytest
 
 @pytest.fixture
 def few_runs(monkeypatch):
-    """A quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, and an eighth of the runs.
+    """A quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, and fewer runs of each.
 
     For tests of what `secure` and `scenario` accept and print; guides show the values of all runs.
     """

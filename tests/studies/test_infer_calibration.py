@@ -54,17 +54,6 @@ def shakings():
             yield motion_of(record, result.component), result.pga_m_s2, frequency, measures.jma_intensity
 
 
-BEFORE_S, AFTER_S = 10.0, 30.0
-"""Part of a record around its largest acceleration under which stones are solved, s: minutes of weak motion overturn none."""
-
-
-def strong_part(motion):
-    """Return a motion cut to its strong part."""
-    middle = int(np.abs(motion.horizontal).argmax())
-    first, last = middle - round(BEFORE_S / motion.dt), middle + round(AFTER_S / motion.dt)
-    return Motion(motion.acceleration[:, max(first, 0) : last], motion.dt)
-
-
 @dataclass(frozen=True, eq=False)
 class Falls:
     """Fallen stones of a cemetery under one shaking, with what a survey would have to find."""
@@ -89,8 +78,7 @@ STEP = {"prior": 2, "sharp": 4, "tenth": 4}
 def stones_overturned():
     """Stones of Aoyama that overturn in three dimensions under three components, for each wear, shaking and level."""
     collected = []
-    for whole, peak, frequency, intensity in shakings():
-        motion = strong_part(whole)
+    for motion, peak, frequency, intensity in shakings():
         for level, (wear, shares) in itertools.product(LEVELS, WEARS.items()):
             pga = level * float(np.median(fitted_limits(AOYAMA, frequency)))
             scaled = Motion(motion.acceleration * (pga / peak), motion.dt)
