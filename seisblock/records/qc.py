@@ -39,7 +39,8 @@ FREQUENT_SHARE = 0.1
 """Share of the nonzero steps between samples at which a step is one of the resolution."""
 
 USUAL_RUNS = 10
-"""Number of flat runs of at least half the length, the run included, beyond which it is due to a coarse resolution."""
+"""Number of flat runs of at least half the length or at the same value, the run included, and at a peak of those of at least its length
+elsewhere, beyond which a flat run is due to a coarse resolution."""
 
 LONG_HOLD_SAMPLES = 25
 """Intervals of a flat run beyond which it is not due to a coarse resolution, if the unit of that is below EDGE_RATIO times the peak."""
@@ -200,26 +201,32 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
     # clipped: at an extreme of the record, entered and left by steep steps
     at_peak = np.isin(a[starts], (a.max(), a.min())) & (np.abs(a[starts]) > 0.5 * peak)
     unit = _resolution(a)
-    is_clipped = at_peak & (np.minimum(step_in, step_out) > max(EDGE_RATIO * peak, EDGE_UNITS * unit))
+    lengths = ends - starts
+    is_steep = np.minimum(step_in, step_out) > max(EDGE_RATIO * peak, EDGE_UNITS * unit)
+    # an instrument that rests at other values as long, between steps as steep, has a coarse resolution
+    is_clipped = at_peak & is_steep & (_count_at_least(lengths[is_steep & ~at_peak], lengths) <= USUAL_RUNS)
     if is_clipped.any():
         text = lazy_gettext(
             "{component}: {count} flat peak(s) of up to {longest} equal samples (at {times} s): instrument or file clipped",
             component=code,
             count=int(is_clipped.sum()),
-            longest=int((ends - starts)[is_clipped].max()) + 1,
+            longest=int(lengths[is_clipped].max()) + 1,
             times=_format_times(starts[is_clipped], dt),
         )
         yield QCFlag("clipped", text, code)
     edges = np.maximum(step_in, step_out)
     # coarse samples stay constant for a while by themselves: steps of few units of the resolution are no edge, unless the run is long
-    is_long_hold = (ends - starts >= LONG_HOLD_SAMPLES) & (unit < EDGE_RATIO * peak)
+    is_long_hold = (lengths >= LONG_HOLD_SAMPLES) & (unit < EDGE_RATIO * peak)
     is_edge = (edges > EDGE_RATIO * peak) & ((edges > EDGE_UNITS * unit) | is_long_hold)
-    # runs of half the length are usual in such samples, too
-    lengths = np.sort(ends - starts)
-    at_least_half = lengths.size - np.searchsorted(lengths, 0.5 * (ends - starts))
-    is_edge &= (at_least_half <= USUAL_RUNS) | is_long_hold
+    # runs of half the length are usual in such samples, too, or runs at the same value between steps as steep: a gap is filled with any
+    # value, not with one at which the instrument often rests
+    _, levels = np.unique(a[starts], return_inverse=True)
+    is_steep = edges > max(EDGE_RATIO * peak, EDGE_UNITS * unit)
+    rests = np.bincount(levels, is_steep)[levels]
+    is_usual = (_count_at_least(lengths, (lengths + 1) // 2) > USUAL_RUNS) | (rests > USUAL_RUNS)
+    is_edge &= ~is_usual | is_long_hold
     # 7.5 intervals: eight equal samples, with a margin for rounding
-    is_long = (ends - starts) * dt >= max(MIN_HOLD_S, 7.5 * dt)
+    is_long = lengths * dt >= max(MIN_HOLD_S, 7.5 * dt)
     holds = [
         i
         for i in np.flatnonzero(is_long & ~is_clipped & is_edge)
@@ -237,9 +244,14 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
             component=code,
             count=len(holds),
             times=_format_times(starts[holds], dt),
-            longest=float((ends - starts)[holds].max()) * dt,
+            longest=float(lengths[holds].max()) * dt,
         )
         yield QCFlag("held", text, code)
+
+
+def _count_at_least(values: IntArray, limits: IntArray) -> IntArray:
+    """Return the number of values, (n,), that are not below each limit, (m,)."""
+    return values.size - np.searchsorted(np.sort(values), limits)
 
 
 def _resolution(a: FloatArray) -> float:

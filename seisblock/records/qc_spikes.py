@@ -114,9 +114,19 @@ def _find_outliers(surprise: FloatArray) -> list[int]:
     windows = sliding_window_view(padded, 2 * _MARGIN + 1)[candidates]
     largest = windows[:, NEIGHBOUR_STEPS : NEIGHBOUR_STEPS + 2 * EXCLUDED_STEPS + 1].max(axis=1)
     # the larger of both sides, so that the onset of shaking is not flagged
-    background = np.maximum(np.median(windows[:, :NEIGHBOUR_STEPS], axis=1), np.median(windows[:, -NEIGHBOUR_STEPS:], axis=1))
+    background = np.maximum(_background(windows[:, :NEIGHBOUR_STEPS]), _background(windows[:, -NEIGHBOUR_STEPS:]))
     indices: list[int] = candidates[(surprise[candidates] >= largest) & (surprise[candidates] > SURPRISE_RATIO * background)].tolist()
     return indices
+
+
+def _background(deviations: FloatArray) -> FloatArray:
+    """Return the median deviation in each row, (m, n), zeros of a flat stretch left out; 0 for rows that are flat throughout."""
+    # a coarse instrument rests at one value and then steps to the next: its steps are the background, not its rests
+    ordered = np.sort(np.where(deviations > 0.0, deviations, np.inf), axis=1)
+    counts = np.count_nonzero(deviations > 0.0, axis=1)
+    rows = np.arange(len(ordered))
+    middle = 0.5 * (ordered[rows, (counts - 1).clip(0) // 2] + ordered[rows, counts // 2])
+    return np.where(counts > 0, middle, 0.0)
 
 
 FLIP_RATIO, FLIP_RESIDUAL = 25.0, 3.0
@@ -152,7 +162,7 @@ def find_flipped_samples(acceleration: FloatArray) -> IntArray:
             background = np.concatenate(
                 (residual[max(i - _MARGIN, 0) : max(i - EXCLUDED_STEPS, 0)], residual[i + EXCLUDED_STEPS + 1 : i + _MARGIN + 1])
             )
-            usual = float(np.median(background)) if background.size else np.inf
+            usual = float(_background(background[None, :])[0]) if background.size else np.inf
             if residual[i] > FLIP_RATIO * usual and flipped_residual[i] < FLIP_RESIDUAL * usual and start <= offset + i + 2 < start + BLOCK:
                 indices.append(offset + i + 2)
     return np.array(indices, dtype=np.int64)

@@ -133,6 +133,14 @@ def test_read_usc_volume_2_takes_the_unit_of_the_peak(tmp_path):
         read(written(tmp_path, text.replace("CMS/SEC/SEC", "")))
 
 
+@pytest.mark.parametrize("quantities", ["ACC", "ACC VEL"])
+def test_read_usc_volume_2_without_displacements(quantities, tmp_path):
+    """Some files end with the accelerations or with the velocities."""
+    record = read(written(tmp_path, world.usc_v2(NORTH, quantities=quantities)))
+    np.testing.assert_allclose(100 * record.components[0].acceleration, NORTH, atol=6e-4)
+    assert record.doubts == ()
+
+
 def test_companions_of_records_are_named(tmp_path):
     """StationXML and QuakeML in place of a record, the latter in one line beyond the limit of Python's CSV reader."""
     quakeml = '<?xml version="1.0"?><q:quakeml xmlns:q="http://quakeml.org/xmlns/quakeml/1.2" x="' + "a," * 100_000 + '"></q:quakeml>'
@@ -202,6 +210,16 @@ def test_end_mark_of_a_station_channel_is_complete(tmp_path):
     text = layouts.csmip(ROWS)
     for mark in ("End of data for channel", "End of Data for Station Channel"):
         assert read(written(tmp_path, text.replace("END OF DATA FOR CHANNEL", mark).replace("End of data for channel", mark))).doubts == ()
+
+
+@pytest.mark.parametrize(("channels", "stated", "kinds"), [(3, 3, set()), (3, 4, set()), (3, 5, {"cut"}), (2, 3, {"cut"}), (2, 4, {"cut"})])
+def test_spare_channel_of_a_recorder_is_no_truncation(channels, stated, kinds, tmp_path):
+    """Recorders of the free field have four channels, of which a sensor needs three; any other missing channel is a loss."""
+    lines = layouts.csmip(ROWS, volume=1).replace("(3 Chns of", f"({stated} Chns of").splitlines(keepends=True)
+    ends = [i for i, line in enumerate(lines) if line.startswith("/&")]
+    record = read(written(tmp_path, "".join(lines[: ends[channels - 1] + 1])))
+    assert {flag.kind for flag in record.doubts} == kinds
+    assert any("channels of the recorder" in entry for entry in record.history) == ((channels, stated) == (3, 4))
 
 
 def test_peer_names_of_broadband_stations(tmp_path):

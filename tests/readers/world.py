@@ -134,8 +134,8 @@ def usc_v1(row, times, *, name: str = "N08W", form: str = "8.3f", margin: str = 
     return _usc_head(name, len(row), times[-1]) + body
 
 
-def usc_v2(row, *, name: str = "N08W", sign: float = 1.0, states_unit: bool = True) -> str:
-    """Return one component in the layout of USC volume 2; `sign` is that of the header peak."""
+def usc_v2(row, *, name: str = "N08W", sign: float = 1.0, states_unit: bool = True, quantities: str = "ACC VEL DIS") -> str:
+    """Return one component in the layout of USC volume 2 with some of its quantities; `sign` is that of the header peak."""
     row, n = np.round(row, 3), len(row)
     peak = sign * row[np.abs(row).argmax()]
     text = f"CORRECTED ACCELEROGRAM  IIBB000  94.000.0 COMP {name}   FILE   0  CORRESPONDING T \n" + _usc_head(name, 8820, 37.7)
@@ -145,7 +145,8 @@ def usc_v2(row, *, name: str = "N08W", sign: float = 1.0, states_unit: bool = Tr
     text += "PEAK DISPLACEMENT =     1.42006      CMS     AT    4.580   SEC.\nINITIAL VELOCITY  =      .8344  CMS/SEC;\n"
     text += "SYNTHETIC EARTHQUAKE   JAN 2, 2020 -0304 GMT\nMAGNITUDE =  6.7    EPICENTRAL DISTANCE =  29.76 KM\nIIBB000\nW\n"
     text += fortran([0] * 100, 16, "5d") + fortran([0.0] * 100, 8, "10.3f")
-    for quantity, unit in (("ACC", "CM/SEC/SEC"), ("VEL", "CM/SEC"), ("DIS", "CM")):
+    units = {"ACC": "CM/SEC/SEC", "VEL": "CM/SEC", "DIS": "CM"}
+    for quantity, unit in ((quantity, units[quantity]) for quantity in quantities.split()):
         stated = f"  IN UNITS {unit}" if states_unit else ""
         text += f"{n:6d} POINTS OF {quantity} DATA EQUALLY SPACED AT {DT:6.3f} SEC.{stated}\n" + fortran(row, 8, "10.3f")
     return text

@@ -241,6 +241,28 @@ def test_runs_that_are_usual_are_no_gap(runs, is_flagged):
     assert ("held" in doubts_of(row)) == is_flagged
 
 
+@pytest.mark.parametrize(("runs", "is_flagged"), [(USUAL_RUNS, True), (USUAL_RUNS + 1, False)])
+@pytest.mark.parametrize(("kind", "count", "value"), [("held", 12, 0.1), ("clipped", MIN_FLAT_SAMPLES, 2.0)])
+def test_rests_of_a_coarse_instrument_are_no_damage(kind, count, value, runs, is_flagged):
+    """USUAL_RUNS: short rests at the value of a long one; rests elsewhere as long as one at the peak; between steps as steep."""
+    row = noisy()
+    row[1000 : 1000 + count] = value
+    row[999] = row[1000 + count] = -0.5
+    # the long run at one value counts itself
+    for i, place in enumerate(range(1100, 1100 + 20 * (runs - (kind == "held")), 20)):
+        row[place : place + MIN_FLAT_SAMPLES] = 0.1 if kind == "held" else 0.1 + 0.01 * i
+        row[place - 1] = row[place + MIN_FLAT_SAMPLES] = -0.5
+    assert (kind in doubts_of(row)) == is_flagged
+
+
+def test_steps_between_rests_are_no_jumps():
+    """Of an instrument that rests at its levels and steps to the next; a step of forty levels is one."""
+    row = np.cumsum(np.where(np.arange(2000) % 7, 0.0, 0.06 * np.random.default_rng(4).choice([-1.0, 1.0], 2000)))
+    assert [places.size for places in find_spikes_and_jumps(row)] == [0, 0]
+    row[1003:] += 40 * 0.06
+    assert [places.tolist() for places in find_spikes_and_jumps(row)] == [[], [1003]]
+
+
 @pytest.mark.parametrize(("share", "resolution"), [(0.95 * FREQUENT_SHARE, 1.0), (1.05 * FREQUENT_SHARE, 6.0)])
 def test_frequent_step_is_the_resolution(share, resolution):
     """FREQUENT_SHARE: a step of six units of the printed digits, among steps of a hundred other sizes."""

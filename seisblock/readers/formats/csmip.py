@@ -59,6 +59,10 @@ _PAIRS_PER_LINE, _TIME_RESOLUTION_S = 5, 1e-3
 """Layout of pairs of time and acceleration."""
 
 
+_SENSOR_CHANNELS, _RECORDER_CHANNELS = 3, 4
+"""Channels of a digital recorder of the free field (Etna, K2) and of its internal sensor; the last one is spare."""
+
+
 class _Section(NamedTuple):
     """Samples of one quantity: quantity, interval, unit, values, index of the line after them, count in the file, history entries.
 
@@ -103,7 +107,12 @@ def read_csmip(blob: RawFile) -> list[Record]:
         parts = [replace(part, doubts=(*part.doubts, flag)) for part in parts]
     # a file that ends between two channels; files of one channel are whole
     total = int(search_group(r"\((\d{1,3})\s+CHNS OF", " ".join(lines[:12])) or 0)
-    if 1 < len(parts) < total:
+    if len(parts) == _SENSOR_CHANNELS and total == _RECORDER_CHANNELS and [part.codes[0] for part in parts].count("UD") == 1:
+        note = lazy_gettext(
+            "{count} of {total} channels of the recorder in the file: the components of one sensor", count=len(parts), total=total
+        )
+        parts = [replace(part, history=(*part.history, note)) for part in parts]
+    elif 1 < len(parts) < total:
         flag = qc_flag("{count} of {total} channels in the file: probably truncated", "cut", count=len(parts), total=total)
         parts = [replace(part, doubts=(*part.doubts, flag)) for part in parts]
     return split_by_location(parts)

@@ -138,7 +138,8 @@ def _read_even(name: str, lines: Sequence[str], text: str, code: str) -> _Sample
 def _flag_sections(lines: Sequence[str]) -> Iterator[QCFlag]:
     """Yield a flag for each list of velocities or displacements whose length is not that of its count."""
     begins = [(index, match) for index, line in enumerate(lines) if (match := _FURTHER_SECTION.match(line))]
-    ends = [index for index, _ in begins[1:]] + [len(lines)]
+    # some files end with the accelerations
+    ends = [*(index for index, _ in begins), len(lines)][1:]
     for (begin, match), end in zip(begins, ends, strict=True):
         count, length = int(match[1][:9]), sum(len(line.rstrip()) for line in lines[begin + 1 : end])
         if length != count * _SAMPLE_FORM[1]:
