@@ -8,6 +8,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.edge_wear import DEFAULT_WEAR, WORN_RANGE
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core.errors import BodyError
+from seisblock.core.io.csv_table import normalize_heading
 
 GRAVESTONE = "gravestone"
 
@@ -18,6 +19,41 @@ The edge wear of gravestones has a prior that agrees with surveys (:data:`~seisb
 sharp: JMA's table of furniture agrees with sharp furniture, no survey reports worn bases of statues, and a bare block has its given
 sizes.
 """
+
+_SPELLINGS = {
+    GRAVESTONE: ("墓石",),
+    "furniture": ("家具", "什器"),
+    "statue": ("像", "立像", "座像", "坐像", "仏像", "石像", "彫像", "彫刻", "sculpture"),
+    "bookcase": ("書棚", "本棚", "書架", "bookshelf"),
+    "boulder": ("自然石",),
+    "chozusha": ("手水舎",),
+    "column": ("石柱",),
+    "display_case": ("展示ケース", "陳列ケース", "showcase"),
+    "filing_cabinet": ("ファイリングキャビネット",),
+    "lantern": ("石灯籠", "灯籠", "石燈籠", "燈籠"),
+    "lateral_filing_cabinet": ("横型キャビネット",),
+    "refrigerator": ("冷蔵庫", "fridge"),
+    "server_rack": ("サーバーラック", "サーバラック"),
+    "wagata": ("和型墓石",),
+}
+"""Other words for a kind or a bundled body in a table."""
+
+_NAMES = {normalize_heading(word): name for name, words in _SPELLINGS.items() for word in (name, *words)}
+
+
+def normalize_kind(text: str) -> str:
+    """Return the kind or bundled body that a word of a table stands for; the word itself if it is unknown.
+
+    Parameters
+    ----------
+    text : str
+
+    Examples
+    --------
+    >>> normalize_kind("家具"), normalize_kind("Display case"), normalize_kind("vase")
+    ('furniture', 'display_case', 'vase')
+    """
+    return _NAMES.get(normalize_heading(text), text)
 
 
 def kind_to_toml(kind: str, width: float, height: float) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.edge_wear import parse_edge_wear
+from seisblock.bodies.kinds import normalize_kind
 from seisblock.bodies.toml import read_body_toml
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
@@ -19,6 +20,7 @@ from seisblock.core.io.csv_table import (
     TRUE_WORDS,
     UNKNOWN_WORDS,
     is_bare_number,
+    normalize_heading,
     parse_heading,
     parse_length_cell,
     parse_number_cell,
@@ -65,16 +67,22 @@ POSITIVE_COLUMNS = (
 SIGNED_COLUMNS = ("centroid_offset", "slope_deg", "azimuth_deg")
 """Columns that may be negative; all others are zero or more."""
 
+_IDENTIFIERS = ("番号", "墓石番号", "整理番号", "管理番号", "資料番号", "登録番号", "収蔵番号", "備品番号", "no", "no.", "id")
+"""Headings of a number that names a body where there is no name."""
+
 _SPELLINGS = {
-    "width": ("b", "幅", "竿幅", "竿の幅", "竿石幅", "竿石の幅"),
+    "width": ("b", "w", "幅", "横幅", "間口", "竿幅", "竿の幅", "竿石幅", "竿石の幅"),
     "height": ("h", "高さ", "高", "竿高さ", "竿の高さ", "竿石高さ", "竿石の高さ"),
-    "depth": ("奥行", "奥行き", "竿奥行", "竿石奥行"),
-    "mass": ("質量",),
+    "depth": ("d", "奥行", "奥行き", "竿奥行", "竿石奥行"),
+    "mass": ("weight", "質量", "重量", "重さ"),
     "mu": ("摩擦係数", "静摩擦係数"),
     "mu_kinetic": ("動摩擦係数",),
     "restitution": ("反発係数",),
     "centroid_height": ("重心高さ", "重心の高さ"),
-    "name": ("名前", "名称", "資料名", "番号", "墓石番号", "整理番号", "no", "no.", "id"),
+    "name": (
+        *("object", "item", "title", "名前", "名称", "品名", "物品名", "資料名", "資料名称", "作品名", "題名", "件名", "物体"),
+        *_IDENTIFIERS,
+    ),
     "surface": ("接触面",),
     "kind": ("種類", "種別"),
     "inset": ("摩耗", "縁の摩耗"),
@@ -357,10 +365,16 @@ def _body_specs(row: TableRow, source: str, *, stones: bool) -> list[BodySpec]:
 
 
 def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
-    """Return the key of each column (empty if unknown) and the units in the headings."""
+    """Return the key of each column (empty if unknown) and the units in the headings.
+
+    Beside a column of names a number or a second name is no column of its own.
+    """
     columns, units = [], {}
-    for cell in cells:
-        name, unit = parse_heading(cell, _COLUMNS)
+    headings = [parse_heading(cell, _COLUMNS) for cell in cells]
+    named = [index for index, (key, _) in enumerate(headings) if key == "name"]
+    first = next((index for index in named if normalize_heading(cells[index]) not in _IDENTIFIERS), named[0] if named else -1)
+    for index, (cell, (key, unit)) in enumerate(zip(cells, headings, strict=True)):
+        name = "" if key == "name" and index != first else key
         if name and name in columns:
             raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
         if name and unit and name not in (*LENGTH_COLUMNS, "mass", "inset") and unit.casefold() not in _UNITS.get(name, ()):
@@ -417,6 +431,8 @@ def _parse_value(key: str, cell: str, unit: str, *, stone: bool) -> Any:
     """Return the value of a cell, SI; None for an outcome marked as unknown."""
     if key == "body":
         return read_body_toml(cell)
+    if key == "kind":
+        return normalize_kind(cell)
     if key in TEXT_COLUMNS:
         return cell
     if key in _BOOLEAN_WORDS:

@@ -39,11 +39,10 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
     if not _exists(path):
         bundled = sample_directory() / (path.name if path.suffix == ".toml" else f"{path.name}.toml")
         if path.parent != Path() or not _exists(bundled):
-            bundled_names = sorted(p.stem for p in sample_directory().glob("*.toml") if p.stem != "MANIFEST" and kind in (None, _kind(p)))
             raise BodyError(
                 "no body file {name}, and no bundled body of that name; bundled: {known}",
                 name=str(name)[:MAX_QUOTED_LENGTH],
-                known=bundled_names,
+                known=bundled_bodies(kind),
             )
         path = bundled
     if path.is_dir():
@@ -60,6 +59,11 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
     except (ValueError, RecursionError) as error:  # invalid TOML or date, or nesting too deep
         raise BodyError("{name} is not valid TOML: {reason}", name=str(name), reason=str(error)) from error
     return {**table, "source": str(name)}
+
+
+def bundled_bodies(kind: str | None = None) -> list[str]:
+    """Return the names of the bundled bodies, of one kind or all."""
+    return sorted(path.stem for path in sample_directory().glob("*.toml") if path.stem != "MANIFEST" and kind in (None, _kind(path)))
 
 
 def _kind(path: Path) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from seisblock.bodies.body_name import body_name
 from seisblock.bodies.edge_wear import DEFAULT_WEAR
 from seisblock.bodies.kinds import KINDS
 from seisblock.cli import shell_completion
@@ -438,7 +439,7 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
     from seisblock.cli.bodies.two_layer import two_layer_choice
 
     choice = two_layer_choice(params, default=DEFAULT_BLOCK)
-    info("body: {name}; {says}", name=lazy_gettext(choice.block.name), says=choice.description)
+    info("body: {name}; {says}", name=body_name(choice.block.name), says=choice.description)
     if params["first"]:
         info("--first: only the first chain of motion in each record counts; without --first all are added, as in seisblock jump")
     drop = choice.base.get("drop", 0.0) if params["drop"] is None else params["drop"]

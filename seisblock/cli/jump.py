@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from seisblock.bodies.body_name import body_name
 from seisblock.bodies.two_layer import Contact
 from seisblock.cli.bodies.options import two_layer_option
 from seisblock.cli.build import solver_options
@@ -22,7 +23,7 @@ from seisblock.cli.types import FLOATS, LENGTH, LENGTHS, MASSES, SIDES
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.errors import OutputError
-from seisblock.core.i18n import gettext, lazy_gettext
+from seisblock.core.i18n import gettext
 from seisblock.models.jump.options import JumpOptions
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ def jump(source: Source, output: OutputOptions, repeat: bool, as_printed: bool, 
     if len(runs) > 1 and output.plot is not None:
         raise OutputError("--plot draws one side, drop and restitution: give one of each, or omit --plot")
     first = runs[0]
-    info("body: {name}; {says}", name=lazy_gettext(first.choice.block.name), says=first.choice.description)
+    info("body: {name}; {says}", name=body_name(first.choice.block.name), says=first.choice.description)
     motions = [motion for record in load_records(source, keep_whole=True) for motion in selected_motions(record, source)]
     responses = [solve_jump(run.choice.block, motion, **run.options.keywords()) for run in runs for motion in motions]
     printed = [solve_jump(run.choice.block, motion, **run.printed(params).keywords()) for run in runs if as_printed for motion in motions]

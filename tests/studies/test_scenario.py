@@ -9,9 +9,12 @@ import pytest
 from scipy.optimize import linprog
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.body_name import TRANSLATED_NAMES
+from seisblock.bodies.kinds import KINDS, normalize_kind
 from seisblock.bodies.table import BodySpec, read_bodies, read_body_list
+from seisblock.bodies.toml import bundled_bodies
 from seisblock.core.errors import BodyError, HazardError, ParameterError
-from seisblock.core.i18n import use_locale
+from seisblock.core.i18n import gettext, use_locale
 from seisblock.core.jma_scale import parse_jma_intensity
 from seisblock.core.registry import SolverBody
 from seisblock.measures import jma_class, jma_intensity, measure
@@ -20,7 +23,7 @@ from seisblock.models.respond.solve import solve_respond
 from seisblock.models.rock.solve import solve_rock
 from seisblock.readers import read
 from seisblock.records import Motion, Preparation, Storey, motion_of, scale, scale_to_jma, synthetic_suite
-from seisblock.report.text.scenario import csv_columns
+from seisblock.report.text.scenario import csv_columns, object_name
 from seisblock.report.text.scenario import tables as scenario_tables
 from seisblock.report.text.secure import measure_note
 from seisblock.studies.assessment import classify
@@ -30,7 +33,7 @@ from seisblock.studies.intervals import clopper_pearson, clustered_interval
 from seisblock.studies.respond.probability import ParameterVariation
 from seisblock.studies.sampling import join_directions, sample
 from seisblock.studies.scenario import peaks, runs
-from seisblock.studies.scenario.assess import CLASSES, assess_scenario, scenario_bodies, versions_for
+from seisblock.studies.scenario.assess import CLASSES, ObjectRisk, assess_scenario, scenario_bodies, versions_for
 from seisblock.studies.scenario.hazard import hazard_suite
 from seisblock.studies.scenario.motions import ScenarioTarget, motion_pairs, scenario_suite
 from seisblock.studies.scenario.restraint import case_demands, restraint_demand
@@ -189,6 +192,8 @@ def test_assess_scenario_sorts_objects_and_depends_on_the_shorter_side_only_by_n
     by_name = {result.body: result for result in results}
     assert [result.body for result in results][2:] == ["box", "impossible"]
     assert by_name["shelf"].falls_along == "width"
+    (square,) = assess_scenario(scenario_bodies([replace(specs[1], parameters={**specs[1].parameters, "depth": 0.32})])[0], records)
+    assert square.falls_along == "either"
     assert by_name["turned"].falls_along == "depth"
     # the same piece, named by its other side: other versions, the same probability within the sampling
     assert by_name["turned"].overturning_probability == pytest.approx(by_name["shelf"].overturning_probability, abs=0.1)
@@ -220,16 +225,67 @@ def test_read_body_list_keeps_invalid_rows_with_their_reason_and_ignores_other_c
     )
     specs, notes = read_body_list(path)
     assert [str(note) for note in notes] == ["list.csv: columns ignored: number, place"]
-    bodies, _ = scenario_bodies(specs)
+    bodies, notes = scenario_bodies(specs)
+    # a word that names no kind has no effect beside sizes
+    assert str(notes[0]).startswith("kinds without effect: 'piano'; known: gravestone, furniture, ")
     reasons = {body.name: str(body.reason) for body in bodies if not isinstance(body, SolverBody)}
     assert [body.name for body in bodies] == ["vase", "wide", "3", "odd", "vase (2)", "low"]
-    assert reasons.keys() == {"wide", "odd", "low"}
+    assert reasons.keys() == {"wide", "low"}
     assert reasons["wide"].startswith("line 3: width 'abc' is not a number")
-    assert "line 5: no body file piano" in reasons["odd"] and "line 7: height missing" in reasons["low"]
+    assert "line 7: height missing" in reasons["low"]
     # other commands refuse such a table
     path.write_text("name,width (cm),height (cm),place\nvase,15,40,hall\n", encoding="utf-8")
     with pytest.raises(BodyError, match="unknown column"):
         read_bodies(path)
+
+
+def test_scenario_bodies_take_kinds_in_japanese_and_bundled_bodies_without_sizes(tmp_path):
+    path = tmp_path / "list.csv"
+    path.write_text(
+        "名称,幅(cm),高さ(cm),種類\n墓,24,72,墓石\n箪笥,40,120,家具\n棚,30,180,書棚\n"
+        "冷蔵庫1,,,冷蔵庫\n像,,,像\n標本,,,Display case\n謎,,,陶器\n",
+        encoding="utf-8",
+    )
+    bodies, notes = scenario_bodies(read_body_list(path)[0])
+    by_name = {body.name: body for body in bodies}
+    assert by_name["墓"].body.ranges.inset_m == pytest.approx((0.0, 0.024)) and by_name["箪笥"].body.inset == 0.0
+    assert by_name["棚"].options.mu == 0.4 and by_name["棚"].body.width == 0.3
+    bundled = {body.name: body.body for body in scenario_bodies(read_body_list(["refrigerator", "statue", "display_case"])[0])[0]}
+    for name, file in (("冷蔵庫1", "refrigerator"), ("像", "statue"), ("標本", "display_case")):
+        assert (by_name[name].body.width, by_name[name].body.height) == (bundled[file].width, bundled[file].height)
+    assert "unknown kind of body '陶器'; known: gravestone" in str(by_name["謎"].reason)
+    assert all("kinds" not in str(note) for note in notes)
+
+
+def test_normalize_kind_knows_the_japanese_names_of_bundled_bodies():
+    with use_locale("ja"):
+        for name in bundled_bodies():
+            if name not in ("machine", "chozusha"):
+                assert normalize_kind(gettext(name.replace("_", " "))) == name
+
+
+@pytest.mark.parametrize(
+    ("text", "names", "ignored"),
+    [
+        ("番号,名称,横幅(cm),奥行き(cm),高さ(cm),重量(kg)\n7,壺,12,14,40,3\n", ["壺"], "番号"),
+        ("ID,Object,Width [cm],Depth [cm],Height [cm],Weight [kg]\n7,vase,12,14,40,3\n", ["vase"], "ID"),
+        ("No.,管理番号,幅(cm),奥行(cm),高さ(cm),重さ(kg)\n7,A-7,12,14,40,3\n", ["7"], "管理番号"),
+    ],
+)
+def test_read_body_list_takes_the_name_beside_a_number(tmp_path, text, names, ignored):
+    path = tmp_path / "台帳.csv"
+    path.write_text(text, encoding="utf-8-sig")
+    specs, notes = read_body_list(path)
+    assert [spec.name for spec in specs] == names
+    assert dict(specs[0].parameters) == pytest.approx({"width": 0.12, "depth": 0.14, "height": 0.4, "mass": 3.0})
+    assert [str(note) for note in notes] == [f"台帳.csv: columns ignored: {ignored}"]
+
+
+def test_object_names_of_a_table_are_not_translated():
+    risks = [ObjectRisk(name) for name in ("case", "column {x}", "display_case", "bookcase")]
+    with use_locale("ja"):
+        assert [object_name(risk) for risk in risks] == ["case", "column {x}", "展示ケース", "書棚"]
+        assert set(TRANSLATED_NAMES) >= {name.replace("_", " ") for name in bundled_bodies()} | set(KINDS)
 
 
 def test_with_base_mass_is_the_composite_of_block_and_plate():

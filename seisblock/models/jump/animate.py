@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from seisblock.bodies.body_name import body_name
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core.i18n import gettext
 from seisblock.core.results import Response
@@ -51,7 +52,7 @@ def jump_animation(response: Response[JumpOutcome], times: FloatArray, *, gal: b
     rise = (curves["height"] - block.centroid_height) / disp_unit.size
     level = response.outcome.rocking_threshold_m_s2
     return Animation(
-        title=gettext(block.name),
+        title=gettext(body_name(block.name)),
         heading=motions_heading([motion]),
         direction=motion.name,
         time=times,

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import gettext
 from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
@@ -40,7 +41,7 @@ def respond_animation(response: Response[RespondOutcome], times: FloatArray, *, 
     half_width = 4.0 * math.hypot(block.width, block.height) + 2.0 * outcome.max_displacement_m
     disp_unit = length_unit([outcome.max_displacement_m], gal=gal)
     return Animation(
-        title=gettext(block.name),
+        title=gettext(body_name(block.name)),
         heading=motions_heading([motion]),
         direction=motion.name,
         time=times,

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import N_, format_share, gettext, join_list
 from seisblock.core.results import Response
 from seisblock.models.respond.names import OutcomeName
@@ -125,7 +126,7 @@ def outcome_table(responses: Responses, *, gal: bool) -> Any:
     friction, level = effective_friction(options), acceleration_unit(gal=gal)
     onset = min(friction, ratio) * options.gravity / level.size
     unit = length_unit((length for o in outcomes for length in (o.max_displacement_m, o.slip_path_m)), gal=gal)
-    values = {"name": gettext(block.name), "mu": options.mu, "kinetic": options.mu_kinetic}
+    values = {"name": gettext(body_name(block.name)), "mu": options.mu, "kinetic": options.mu_kinetic}
     frictions = N_("{name}: mu {mu:g}, kinetic {kinetic:g}")
     title = N_("{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
     if options.tenon:

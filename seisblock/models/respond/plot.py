@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import gettext
 from seisblock.core.results import Phase, Response
 from seisblock.criteria.initiation import Mode
@@ -126,7 +127,7 @@ def _draw_ground(axis: Axes, panel_name: str, response: Response[RespondOutcome]
         for level in (low, high) if is_visible else ():
             axis.axhline(level, color=style.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if level == low else None)
     style.label_axes(axis, y=gettext("a ({unit})", unit=name))
-    title = f"{panel_name}  " + gettext("{name}: {what}", name=gettext(block.name), what=gettext(response.outcome.outcome))
+    title = f"{panel_name}  " + gettext("{name}: {what}", name=gettext(body_name(block.name)), what=gettext(response.outcome.outcome))
     style.set_panel_title(axis, f"{title}\n{label}")
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import gettext
 from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
@@ -49,7 +50,7 @@ def rocking_animation(response: Response[RockOutcome], times: FloatArray, *, gal
     alpha = math.degrees(outcome.slenderness_rad)
     half_width = 4.0 * math.hypot(block.width, block.height)
     return Animation(
-        title=gettext(block.name),
+        title=gettext(body_name(block.name)),
         heading=motions_heading([motion]),
         direction=motion.name,
         time=times,

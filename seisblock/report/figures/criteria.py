@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import format_share, gettext
 from seisblock.criteria.compare import CriterionResult
 from seisblock.output.figures import style
@@ -50,7 +51,7 @@ def figure(cards: Sequence[CriteriaComparison], *, gal: bool = True) -> Figure:
 def peaks_figure(result: PeakAssessment, *, gal: bool = True) -> Figure:
     """Return the figure of the criteria for the peaks of a motion without a record."""
     block = result.block
-    size = f"{gettext(block.name)} {block.width:.3g} × {block.height:.3g} m"
+    size = f"{gettext(body_name(block.name))} {block.width:.3g} × {block.height:.3g} m"
     title = style.SEPARATOR.join((peaks_text(result, gal=gal), size))
     fig, (axis,) = style.new_figure(1, width=6.6, height=1.6 + 0.19 * len(result.rows), title=title)
     outcomes = _draw_ratios(axis, result.rows)
@@ -83,7 +84,7 @@ def _add_legend(fig: Figure, outcomes: set[bool]) -> None:
 def _block_label(cards: Sequence[CriteriaComparison]) -> str:
     """Return name and size of the block; the name alone if the size depends on the direction."""
     block = cards[0].block
-    name = gettext(block.name)
+    name = gettext(body_name(block.name))
     return f"{name} {block.width:.3g} × {block.height:.3g} m" if all(card.block == block for card in cards) else name
 
 

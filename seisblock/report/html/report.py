@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import N_, gettext, join_list, join_sentences
 from seisblock.criteria.compare import unique_criteria
 from seisblock.measures.shaking import response_shaking
@@ -61,7 +62,7 @@ def report(data: ReportData, *, command: str = "") -> str:
 
 def _contents(data: ReportData) -> list[tuple[str, str]]:
     """Return anchor and title of each section."""
-    bodies = [(f"body-{number}", gettext(body.subject.name)) for number, body in enumerate(data.bodies, start=1)]
+    bodies = [(f"body-{number}", gettext(body_name(body.subject.name))) for number, body in enumerate(data.bodies, start=1)]
     return [("record", gettext("Ground motion record")), *bodies, ("origin", gettext("Provenance"))]
 
 
@@ -134,7 +135,7 @@ def _body(data: ReportData, body: BodyResponses) -> dict[str, Any]:
             else gettext("mu {mu:g}, kinetic {kinetic:g}", mu=friction, kinetic=kinetic)
         )
     sections = [_section(data, body, effects) for effects in _effects_by_model(body)]
-    return {"name": gettext(body.subject.name), "about": join_list(facts), "models": _models(body), "sections": sections}
+    return {"name": gettext(body_name(body.subject.name)), "about": join_list(facts), "models": _models(body), "sections": sections}
 
 
 def _models(body: BodyResponses) -> list[list[str]]:

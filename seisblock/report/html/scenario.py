@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from seisblock.core.i18n import LANGUAGES, format_share, get_locale, gettext, use_locale
+from seisblock.core.i18n import LANGUAGES, N_, format_share, get_locale, gettext, use_locale
 from seisblock.output.figures.fonts import build_localized
 from seisblock.output.figures.svg import embed_figure
 from seisblock.output.templating import render_page
 from seisblock.report.figures.probability import share_colour
 from seisblock.report.text.scenario import SIDES, advice_text, class_counts, object_name
-from seisblock.studies.scenario.assess import ObjectRisk
+from seisblock.studies.scenario.assess import EITHER, ObjectRisk
 
 
 def scenario_page(results: Sequence[ObjectRisk], label: str, notes: Sequence[str]) -> str:
@@ -69,9 +69,10 @@ def _card(result: ObjectRisk) -> dict[str, Any]:
         (gettext("moves or overturns"), format_share(result.moved_probability or 0.0)),
     ]
     if result.falls_along is not None:
-        reach = gettext(
-            "along its {side}; up to {reach:.1f} m from its side", side=gettext(SIDES[result.falls_along]), reach=result.fall_reach_m
-        )
+        text = N_("along its {side}; up to {reach:.1f} m from its side")
+        if result.falls_along == EITHER:
+            text = N_("up to {reach:.1f} m from its side")
+        reach = gettext(text, side=gettext(SIDES[result.falls_along]), reach=result.fall_reach_m)
         facts.append((gettext("falls"), reach))
     if result.displacement_m is not None and result.displacement_m >= 0.001:
         shift = gettext("up to {shift:.1f} cm", shift=100.0 * result.displacement_m)

@@ -8,6 +8,7 @@ from typing import Any
 
 from rich.text import Text
 
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import N_, gettext
 from seisblock.criteria.compare import ACCELERATION, CriterionResult, unique_criteria
 from seisblock.models.respond.describe import outcome_text
@@ -105,7 +106,7 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
     title = gettext(
         "{name}: {body} {width:g} x {height:g} m, PGA {pga}, PGV {pgv}",
         name=card.component,
-        body=gettext(card.block.name),
+        body=gettext(body_name(card.block.name)),
         width=card.block.width,
         height=card.block.height,
         pga=f"{m.pga_m_s2 / shaking.size:.4g} {shaking.name}",

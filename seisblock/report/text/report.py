@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from rich.text import Text
 
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import gettext, join_list
 from seisblock.output.text.tables import styled_line
 from seisblock.report.text.assessment import headline, object_headline, style
@@ -20,7 +21,7 @@ def tables(data: ReportData) -> Iterator[Text]:
 
 def body_headline(body: BodyResponses) -> str:
     """Return the assessment of a body under any of its directions in one line."""
-    name = gettext(body.subject.name)
+    name = gettext(body_name(body.subject.name))
     if len(body.cards) > 1:
         return object_headline(body.assessment, name)
     return headline(body.assessment, join_list([name, body.assessment.direction]))

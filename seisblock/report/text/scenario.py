@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.bodies.body_name import body_name
+from seisblock.bodies.body_name import TRANSLATED_NAMES, body_name
 from seisblock.core.i18n import N_, gettext, join_list, join_sentences
 from seisblock.output.text.tables import DASH, Part, format_range, styled_line, table
-from seisblock.studies.scenario.assess import CLASSES, ObjectRisk
+from seisblock.studies.scenario.assess import CLASSES, DEPTH, EITHER, WIDTH, ObjectRisk
 
-SIDES = {"width": N_("width"), "depth": N_("depth")}
+SIDES = {WIDTH: N_("width"), DEPTH: N_("depth"), EITHER: N_("either side")}
 
 MAX_ROWS = 12
 """Largest number of objects without ``--details``."""
@@ -31,9 +31,9 @@ def format_percent(share: float | None) -> str:
 
 def object_name(result: ObjectRisk) -> str:
     """Return the name of an object in the language of the locale."""
-    name = gettext(body_name(result.body))
     # bundled bodies are named by their file, their translations by their name
-    return gettext(body_name(result.body.replace("_", " "))) if name == result.body else name
+    file_name = result.body.replace("_", " ")
+    return gettext(body_name(file_name if file_name in TRANSLATED_NAMES else result.body))
 
 
 def advice_text(result: ObjectRisk) -> str:

@@ -116,7 +116,7 @@ def build_solver_bodies(
             result.append(RejectedBody(body.name, error.message))
     rejected = [item for item in result if isinstance(item, RejectedBody)]
     if rejected and len(rejected) == len(result):
-        raise ParameterError("{solver} accepts none of the bodies: {reason}", solver=solver.name, reason=rejected[0].reason)
+        raise ParameterError("none of the bodies can be computed: {reason}", reason=rejected[0].reason)
     duplicates = [name for name, count in Counter(item.name for item in result).items() if count > 1]
     if duplicates:
         raise ParameterError("two bodies have the name {name!r}; rename one", name=duplicates[0][:100])

@@ -13,7 +13,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.factory import block_for_motion, table_friction
 from seisblock.bodies.kinds import KINDS
 from seisblock.bodies.table import BodySpec
-from seisblock.bodies.toml import read_body_toml
+from seisblock.bodies.toml import bundled_bodies, read_body_toml
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
@@ -35,14 +35,17 @@ CLASSES = (LIKELY, MAY, MOVES, STAYS)
 MIN_RUNS = 160
 """Smallest number of runs of an object."""
 
-WIDTH, DEPTH = "width", "depth"
-"""Side along which an object falls."""
+WIDTH, DEPTH, EITHER = "width", "depth", "either"
+"""Side along which an object falls; either one where the base is square or its depth is unknown."""
 
 SHIFT_QUANTILE = 0.95
 """Share of the residual displacements of standing objects that :attr:`ObjectRisk.displacement_m` covers."""
 
 UNKNOWN_FRICTION, UNKNOWN_FRICTION_RANGE = 0.4, (0.2, 0.7)
 """Friction of an object for which none is given, and its range: those of the bundled bookcase."""
+
+MAX_UNKNOWN_KINDS = 5
+"""Largest number of unknown words of the column ``kind`` in a note."""
 
 MAX_GAP_M = 0.3
 """Displacement above which a free gap is no advice."""
@@ -68,7 +71,7 @@ class ObjectRisk(DisplayMixin):
     class_name : str or None
         ``likely overturns`` (probability from 0.5), ``may overturn`` (from 0.05), ``moves`` (moved probability from 0.05), ``stays``.
     falls_along : str or None
-        Side along which it falls in most cases, ``width`` or ``depth``.
+        Side along which it falls in most cases, ``width`` or ``depth``; ``either`` for a square base or an unknown depth.
     fall_reach_m : float or None
         Distance from its side that it covers when it lies: its height.
     displacement_m : float or None
@@ -99,14 +102,19 @@ def scenario_bodies(
 ) -> tuple[tuple[SolverBody | RejectedBody, ...], tuple[Message, ...]]:
     """Return the objects of a table for the solver ``respond``, and notes on what was assumed.
 
-    A bundled name in the column ``kind`` stands for that body; beside sizes it gives the friction of the kind. Without any friction it is
-    drawn from 0.2 to 0.7, median 0.4. A name that was used before gets a number.
+    A bundled name in the column ``kind`` stands for that body; beside sizes it gives the friction of the kind, and an unknown word has no
+    effect. Without any friction it is drawn from 0.2 to 0.7, median 0.4. A name that was used before gets a number.
     """
     given_options = {key: value for key, value in (options or {}).items() if value is not None}
-    specs = _with_distinct_names([_with_kind(spec) for spec in specs])
+    with_kind = [_with_kind(spec) for spec in specs]
+    specs = _with_distinct_names([spec for spec, _ in with_kind])
+    notes: list[Message] = []
+    if unknown := sorted({kind for _, kind in with_kind if kind is not None}):
+        words = [repr(kind[:40]) for kind in unknown[:MAX_UNKNOWN_KINDS]]
+        notes.append(lazy_gettext("kinds without effect: {unknown}; known: {known}", unknown=words, known=_known_kinds()))
     bodies = build_solver_bodies(get_solver("respond"), specs, {"mu": UNKNOWN_FRICTION, **given_options})
     if "mu" in given_options:
-        return bodies, ()
+        return bodies, tuple(notes)
     result: list[SolverBody | RejectedBody] = []
     assumed = 0
     for spec, body in zip(specs, bodies, strict=True):
@@ -115,7 +123,7 @@ def scenario_bodies(
             assumed += 1
         result.append(body)
     if not assumed:
-        return bodies, ()
+        return bodies, tuple(notes)
     low, high = UNKNOWN_FRICTION_RANGE
     note = lazy_gettext(
         "no friction coefficient for {count} of {all} objects: {low:g} to {high:g} assumed, median {middle:g}",
@@ -125,7 +133,7 @@ def scenario_bodies(
         high=high,
         middle=UNKNOWN_FRICTION,
     )
-    return tuple(result), (note,)
+    return tuple(result), (*notes, note)
 
 
 def is_friction_unknown(spec: BodySpec) -> bool:
@@ -154,22 +162,33 @@ def _with_distinct_names(specs: Sequence[BodySpec]) -> list[BodySpec]:
     return result
 
 
-def _with_kind(spec: BodySpec) -> BodySpec:
+def _with_kind(spec: BodySpec) -> tuple[BodySpec, str | None]:
+    """Return a body with the values of its kind, and the kind if it is unknown and has no effect."""
     values = dict(spec.parameters)
-    # a name of `KINDS` stays a kind; any other is the name of a body
     kind = values.get("kind")
-    if not isinstance(kind, str) or kind in KINDS or spec.description is not None:
-        return spec
+    if not isinstance(kind, str) or spec.description is not None:
+        return spec, None
+    has_sizes = "width" in values or "height" in values
+    # without sizes `statue` is the bundled body, beside them the kind of the object
+    if kind in KINDS and (has_sizes or kind not in bundled_bodies()):
+        return spec, None
+    del values["kind"]
     try:
         table = read_body_toml(kind)
-    except SeisblockError as error:
-        return replace(spec, error=lazy_gettext("{source}: {why}", source=spec.source, why=error.message))
-    del values["kind"]
-    if "width" not in values and "height" not in values:
-        return BodySpec(spec.name, values, table, spec.source)
+    except SeisblockError:
+        if has_sizes:
+            return replace(spec, parameters=values), kind
+        text = lazy_gettext("unknown kind of body {kind!r}; known: {known}", kind=kind[:100], known=_known_kinds())
+        return replace(spec, error=lazy_gettext("{source}: {why}", source=spec.source, why=text)), None
+    if not has_sizes:
+        return BodySpec(spec.name, values, table, spec.source), None
     if "mu" not in values and "surface" not in values and table.get("mu") is not None:
         values["mu"] = float(table["mu"])
-    return BodySpec(spec.name, values, None, spec.source)
+    return BodySpec(spec.name, values, None, spec.source), None
+
+
+def _known_kinds() -> list[str]:
+    return list(dict.fromkeys((*KINDS, *bundled_bodies())))
 
 
 def assess_scenario(
@@ -232,7 +251,7 @@ def assess_scenario(
             overturning_interval(counts, runs),
             int(runs.sum()),
             classify(overturning, moved),
-            None if not fell.any() else WIDTH if by_side[0] >= by_side[1] else DEPTH,
+            _side_of_falls(body.body, by_side) if fell.any() else None,
             block.height if fell.any() else None,
             float(np.quantile(standing, SHIFT_QUANTILE)) if standing.size else None,
             stopped=stopped,
@@ -249,6 +268,13 @@ def assess_scenario(
             -(a.moved_probability or 0.0),
         ),
     )
+
+
+def _side_of_falls(body: object, falls: IntArray) -> str:
+    """Return the side along which an object falls more often."""
+    if isinstance(body, Block) and body.depth in (None, body.width):
+        return EITHER
+    return WIDTH if falls[0] >= falls[1] else DEPTH
 
 
 def _stopped_runs(results: CaseResults, index: int, pairs: Pairs) -> tuple[str, ...]:
