@@ -14,7 +14,7 @@ from seisblock.core.units import GAL
 from seisblock.records.qc_flags import QCFlag
 from seisblock.records.qc_metadata import check_metadata
 from seisblock.records.qc_repetition import find_repetitions
-from seisblock.records.qc_spikes import find_flipped_samples, find_spikes_and_jumps
+from seisblock.records.qc_spikes import find_flipped_samples, find_rectified_samples, find_spikes_and_jumps
 from seisblock.records.record import Component, Record
 
 IMPLAUSIBLE_PGA = 50.0
@@ -41,6 +41,15 @@ FREQUENT_SHARE = 0.1
 USUAL_RUNS = 10
 """Number of flat runs of at least half the length or at the same value, the run included, and at a peak of those of at least its length
 elsewhere, beyond which a flat run is due to a coarse resolution."""
+
+LONG_FLAT_SAMPLES = 8
+"""Minimum number of equal samples at the peak of either side that count as clipped where their edges only exceed EDGE_UNITS: a smooth
+maximum with as many samples within one unit of the resolution has edges of one or two."""
+
+QUIET_SHARE, INTERRUPTION_RATIO, MAX_INTERRUPTION_S = 0.5, 12.0, 10.0
+"""Interruption of weak motion: flat run of at least LONG_HOLD_SAMPLES intervals, between two windows of its length in which at least this
+share of the steps is not zero, and this many times as long as the longest flat run there; at most 10 s, as rests between two motions of a
+sequence are longer."""
 
 LONG_HOLD_SAMPLES = 25
 """Intervals of a flat run beyond which it is not due to a coarse resolution, if the unit of that is below EDGE_RATIO times the peak."""
@@ -163,6 +172,15 @@ def _check_signs(code: str, a: FloatArray, dt: float, peak: float) -> Iterator[Q
             )
             yield QCFlag("sign", text, code)
         return
+    for first, last, count in find_rectified_samples(a):
+        text = lazy_gettext(
+            "{component}: samples touch zero {count} times between {first:.2f} and {last:.2f} s without crossing it: minus signs lost",
+            component=code,
+            count=count,
+            first=first * dt,
+            last=last * dt,
+        )
+        yield QCFlag("sign", text, code)
     flips = find_flipped_samples(a)
     if flips.size:
         text = lazy_gettext(
@@ -199,12 +217,15 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
     step_in = np.where(starts > 0, np.abs(a[starts] - a[np.maximum(starts - 1, 0)]), 0.0)
     step_out = np.where(ends < a.size - 1, np.abs(a[ends] - a[np.minimum(ends + 1, a.size - 1)]), 0.0)
     # clipped: at an extreme of the record, entered and left by steep steps
-    at_peak = np.isin(a[starts], (a.max(), a.min())) & (np.abs(a[starts]) > 0.5 * peak)
+    at_extreme = np.isin(a[starts], (a.max(), a.min()))
     unit = _resolution(a)
     lengths = ends - starts
-    is_steep = np.minimum(step_in, step_out) > max(EDGE_RATIO * peak, EDGE_UNITS * unit)
+    edge = np.minimum(step_in, step_out)
+    is_steep = edge > max(EDGE_RATIO * peak, EDGE_UNITS * unit)
+    is_long = (lengths >= LONG_FLAT_SAMPLES - 1) & (edge > EDGE_UNITS * unit)
+    is_clipped = at_extreme & ((is_steep & (np.abs(a[starts]) > 0.5 * peak)) | (is_long & (np.abs(a[starts]) > OFFSET_RATIO * peak)))
     # an instrument that rests at other values as long, between steps as steep, has a coarse resolution
-    is_clipped = at_peak & is_steep & (_count_at_least(lengths[is_steep & ~at_peak], lengths) <= USUAL_RUNS)
+    is_clipped &= _count_at_least(lengths[(is_steep | is_long) & ~at_extreme], lengths) <= USUAL_RUNS
     if is_clipped.any():
         text = lazy_gettext(
             "{component}: {count} flat peak(s) of up to {longest} equal samples (at {times} s): instrument or file clipped",
@@ -228,6 +249,9 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
     # 7.5 intervals: eight equal samples, with a margin for rounding
     is_long = lengths * dt >= max(MIN_HOLD_S, 7.5 * dt)
     holds = [
+        i for i in np.flatnonzero(~is_clipped & (lengths >= LONG_HOLD_SAMPLES)) if _is_interruption(a, int(starts[i]), int(ends[i]), dt)
+    ]
+    holds += [
         i
         for i in np.flatnonzero(is_long & ~is_clipped & is_edge)
         if _is_shaking(a[max(starts[i] - _NEIGHBOURHOOD, 0) : starts[i]], peak)
@@ -237,6 +261,7 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
             else _is_shaking(a[ends[i] + 1 : ends[i] + 1 + _NEIGHBOURHOOD], peak)
         )
     ]
+    holds = sorted(set(holds))
     if holds:
         text = lazy_gettext(
             "{component}: {count} interval(s) of constant value during shaking (from {times} s, up to {longest:.3g} s): filled gap "
@@ -247,6 +272,22 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
             longest=float(lengths[holds].max()) * dt,
         )
         yield QCFlag("held", text, code)
+
+
+def _is_interruption(a: FloatArray, start: int, end: int, dt: float) -> bool:
+    """Return whether a flat run between two samples interrupts motion that goes on changing on both sides, however weak."""
+    length = end - start
+    before, after = a[max(start - length, 0) : start + 1], a[end : end + length + 1]
+    if length * dt > MAX_INTERRUPTION_S or min(before.size, after.size) <= length:
+        return False
+    for window in (before, after):
+        changes = np.flatnonzero(np.diff(window))
+        if changes.size < QUIET_SHARE * length:
+            return False
+        longest = int(np.diff(changes, prepend=-1, append=length).max()) - 1
+        if length < INTERRUPTION_RATIO * max(longest, 1):
+            return False
+    return not _ends_at_rest(before[-_NEIGHBOURHOOD - 1 : -1], float(a[start]))
 
 
 def _count_at_least(values: IntArray, limits: IntArray) -> IntArray:

@@ -108,11 +108,7 @@ STARTS = (1000, 1700, 2400)
 """Samples at which damage begins: before the strong motion, in it, and after its peak."""
 
 MISSED = {
-    "clipped on one side at 0.6 of the peak": 3,
-    "minus signs lost for 1 s": 3,
-    "zeros for 0.25 s": 1,
-    "zeros for 2 s": 1,
-    "value held for 0.25 s": 1,
+    "minus signs lost for 1 s": 2,
     "0.5 s lost": 1,
     "polarity reversed for 1 s": 1,
     "ten times too large for 1 s": 1,
@@ -139,8 +135,21 @@ def test_damage_of_forty_kinds_is_refused_or_flagged(tmp_path):
     verdicts |= {name: [_verdict(tmp_path, damage(rows))] for name, damage in TEXTS.items()}
     missed = {name: kinds.count("clean") for name, kinds in verdicts.items() if "clean" in kinds}
     assert all(count <= MISSED.get(name, 0) for name, count in missed.items()), missed
-    # 86 of 98
-    assert 1.0 - sum(missed.values()) / sum(map(len, verdicts.values())) >= 0.87
+    # 93 of 98
+    assert 1.0 - sum(missed.values()) / sum(map(len, verdicts.values())) >= 0.94
+
+
+@pytest.mark.slow
+def test_lost_minus_signs_of_a_second_are_found_in_half_of_the_places(tmp_path):
+    """Any component, anywhere in the record; slow swings cross zero too rarely within a second to be noticed."""
+    rows = _base()
+    found = 0
+    for column in range(3):
+        for start in range(600, 3600, 200):
+            damaged = _replace(rows, start, np.abs(rows[start : start + 200, column]), column)
+            found += "sign" in _verdict(tmp_path, _table(damaged))
+    # 25 of 45
+    assert found >= 24
 
 
 SOUND = {

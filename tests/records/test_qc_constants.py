@@ -14,6 +14,8 @@ from seisblock.records.qc import (
     EDGE_RATIO,
     FREQUENT_SHARE,
     IMPLAUSIBLE_PGA,
+    LONG_FLAT_SAMPLES,
+    LONG_HOLD_SAMPLES,
     MIN_FLAT_SAMPLES,
     MIN_ZERO_MINIMA,
     SMOOTHNESS_RATIO,
@@ -25,13 +27,18 @@ from seisblock.records.qc import (
 )
 from seisblock.records.qc_repetition import MIN_STEPS, MIN_VALUES, WINDOW, find_repetitions
 from seisblock.records.qc_spikes import (
+    CUSP_RATIO,
+    CUSP_SPACING,
     FLIP_RATIO,
     FLIP_RESIDUAL,
+    MIN_CURVATURE,
+    MIN_CUSPS,
     MIN_SURPRISE,
     SPIKE_ASYMMETRY,
     STEEPNESS_RATIO,
     SURPRISE_RATIO,
     find_flipped_samples,
+    find_rectified_samples,
     find_spikes_and_jumps,
 )
 from tests.records.test_qc import DT, SHAKING, doubts_of
@@ -156,6 +163,8 @@ def test_long_run_of_very_coarse_samples_is_no_gap(levels, is_flagged):
     row = np.where(np.arange(2000) % 2, 1.0, -1.0) * np.random.default_rng(5).integers(1, 20, 2000)
     row[1000:1040] = 0.0
     row[999], row[1040] = 2.0, -2.0
+    # such samples rest on both sides, too
+    row[980:985] = row[1060:1065] = 1.0
     row[500] = levels
     assert ("held" in doubts_of(0.06 * row)) == is_flagged
 
@@ -406,6 +415,10 @@ LIMITS = {
         "EDGE_UNITS": 4.5,
         "FREQUENT_SHARE": 0.1,
         "USUAL_RUNS": 10,
+        "LONG_FLAT_SAMPLES": 8,
+        "QUIET_SHARE": 0.5,
+        "INTERRUPTION_RATIO": 12.0,
+        "MAX_INTERRUPTION_S": 10.0,
         "LONG_HOLD_SAMPLES": 25,
         "MIN_INTERVAL_S": 5e-4,
         "MAX_INTERVAL_S": 0.1,
@@ -424,6 +437,10 @@ LIMITS = {
         "FLIP_RESIDUAL": 3.0,
         "NEIGHBOUR_STEPS": 10,
         "EXCLUDED_STEPS": 2,
+        "MIN_CUSPS": 5,
+        "MIN_CURVATURE": 0.02,
+        "CUSP_RATIO": 4.0,
+        "CUSP_SPACING": 6.0,
     },
 }
 """Limits as chosen; the tests above hold what each of them decides."""
@@ -435,3 +452,100 @@ def test_limits_are_those_that_were_chosen():
         assert {name: getattr(module, name) for name in limits} == limits
         numbers = {name for name, value in vars(module).items() if name.isupper() and name[0] != "_" and isinstance(value, (int, float))}
         assert numbers - {"BLOCK", "GAL", "KINE"} == set(limits)
+
+
+@pytest.mark.parametrize(
+    ("count", "value", "step", "is_flagged"),
+    [
+        (LONG_FLAT_SAMPLES - 1, 2.0, 0.05, False),
+        (LONG_FLAT_SAMPLES, 2.0, 0.05, True),
+        (LONG_FLAT_SAMPLES, 2.0, 4.4e-6, False),
+        (LONG_FLAT_SAMPLES, 2.0, 4.6e-6, True),
+        (LONG_FLAT_SAMPLES, 1.05, 0.05, True),
+        (LONG_FLAT_SAMPLES, 0.95, 0.05, False),
+    ],
+)
+def test_long_flat_peak_of_one_side_is_flagged(count, value, step, is_flagged):
+    """LONG_FLAT_SAMPLES, EDGE_UNITS, OFFSET_RATIO of the peak: less steep edges, and the smaller side."""
+    row = np.round(noisy(), 6)
+    # the other side decides the peak
+    row = np.minimum(row, 0.8 if value < 1.5 else 1.0)
+    row[1000 : 1000 + count] = value
+    row[999] = row[1000 + count] = value - step
+    row[500] = -10.0 if value < 1.5 else -2.1
+    assert ("clipped" in doubts_of(row)) == is_flagged
+
+
+@pytest.mark.parametrize(
+    ("count", "rest", "share", "is_flagged"),
+    [
+        (LONG_HOLD_SAMPLES, 1, 1.0, False),
+        (LONG_HOLD_SAMPLES + 1, 1, 1.0, True),
+        (61, 5, 1.0, True),
+        (60, 5, 1.0, False),
+        (201, 1, 0.52, True),
+        (201, 1, 0.48, False),
+        (1001, 1, 1.0, True),
+        (1002, 1, 1.0, False),
+    ],
+)
+def test_interruption_of_weak_motion_is_flagged(count, rest, share, is_flagged):
+    """LONG_HOLD_SAMPLES, INTERRUPTION_RATIO, QUIET_SHARE, MAX_INTERRUPTION_S: zeros in motion of a thousandth of the peak."""
+    row = 1e-3 * np.tile(noisy(), 4)[:6000]
+    row[100] = 1.0
+    for side in (slice(3000 - count, 3000), slice(3000 + count, 3000 + 2 * count)):
+        # steps of zero at regular places
+        for k in range(count):
+            if int((k + 1) * (1.0 - share)) > int(k * (1.0 - share)):
+                row[side.start + k] = row[side.start + k - 1]
+    row[3000 + count + 5 : 3000 + count + 6 + rest] = row[3000 + count + 5]
+    row[3000 : 3000 + count] = 0.0
+    assert ("held" in doubts_of(row)) == is_flagged
+
+
+def test_rest_in_a_sequence_of_motions_is_no_interruption():
+    """Two motions with zeros in between for twenty seconds."""
+    assert "held" not in doubts_of(np.concatenate((0.1 * SHAKING[4000:], np.zeros(2000), SHAKING)))
+
+
+@pytest.mark.parametrize(
+    ("cusps", "size", "offset", "is_found"),
+    [
+        (MIN_CUSPS - 1, 1.0, 0.0, False),
+        (MIN_CUSPS, 1.0, 0.0, True),
+        (MIN_CUSPS, 0.98 * MIN_CURVATURE / 0.595, 0.0, False),
+        (MIN_CUSPS, 1.02 * MIN_CURVATURE / 0.595, 0.0, True),
+        (MIN_CUSPS, 1.0, 0.98 * 0.595 / CUSP_RATIO, True),
+        (MIN_CUSPS, 1.0, 1.02 * 0.595 / CUSP_RATIO, False),
+    ],
+)
+def test_samples_that_touch_zero_without_crossing_it_are_flagged(cusps, size, offset, is_found):
+    """MIN_CUSPS, MIN_CURVATURE, CUSP_RATIO of the offset: the curvature at a cusp of a sine of 20 samples is 0.595 of its size."""
+    row = size * np.sin(2.0 * np.pi * (np.arange(4000) + 0.4) / 20.0)
+    assert find_rectified_samples(row) == []
+    # from a maximum on
+    inside = slice(1005, 1005 + 10 * cusps)
+    row[inside] = np.abs(row[inside])
+    row[: inside.start] += offset
+    row[inside.stop :] += offset
+    assert [item.cusps for item in find_rectified_samples(row)] == [cusps] * is_found
+
+
+@pytest.mark.parametrize(("value", "is_found"), [(0.98, True), (1.02, False)])
+def test_valleys_above_zero_are_no_cusps(value, is_found):
+    """CUSP_RATIO: valleys v, v between samples of v + 1, curvature 2 and 4 v - 2 with the later samples turned over."""
+    # 2 = CUSP_RATIO * |4 v - 2|
+    v = 0.5 + value * 0.5 / CUSP_RATIO
+    row = np.tile([v + 1.0, v, v, v + 1.0, v + 2.0, v + 2.0], MIN_CUSPS)
+    row = np.concatenate((100.0 * ZIGZAG, row, 100.0 * ZIGZAG))
+    assert bool(find_rectified_samples(row)) == is_found
+
+
+@pytest.mark.parametrize(("spacing", "is_found"), [(0.98, True), (1.02, False)])
+def test_cusps_far_apart_are_chance(spacing, is_found):
+    """CUSP_SPACING mean intervals between changes of sign: cusps of slopes of one, the mean interval given by the samples around."""
+    half_period = 40
+    row = np.concatenate([np.abs(np.arange(half_period) - half_period / 2 + 0.5)] * (MIN_CUSPS + 1)) + 0.0
+    mean_interval = half_period / (spacing * CUSP_SPACING)
+    around = np.sin(np.pi * (np.arange(20000) + 0.3) / mean_interval)
+    assert bool(find_rectified_samples(np.concatenate((around, row, around)))) == is_found
