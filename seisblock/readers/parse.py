@@ -10,7 +10,7 @@ from seisblock.core.errors import ParameterError, UnitError
 from seisblock.readers.options import ReadOptions
 from seisblock.readers.registry import detect_format, find_format
 from seisblock.readers.response import Inventories
-from seisblock.readers.source import RawFile
+from seisblock.readers.source import RawFile, normalize_text
 from seisblock.readers.table.headers import normalize_unit
 from seisblock.records import Record
 
@@ -22,6 +22,7 @@ def parse_file(blob: RawFile, options: ReadOptions, find_inventories: Callable[[
 
     Raise an InputError if the file is malformed, exceeds the limit of samples, or contradicts the options.
     """
+    blob = normalize_text(blob)
     file_format = detect_format(blob) if options.format is None else find_format(options.format)
     if "inventory" in file_format.options and options.inventory is None:
         options = replace(options, inventory=Inventories(find_inventories()))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import importlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -13,7 +12,7 @@ from seisblock.core.errors import RecordFormatError
 from seisblock.core.format_names import format_names
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.readers.lines import read_lines
-from seisblock.readers.source import RawFile
+from seisblock.readers.source import RawFile, normalize_text
 from seisblock.records import Record
 
 HEAD_BYTES = 4096
@@ -146,10 +145,7 @@ def find_format(name: str) -> Format:
 
 def match_head(head: bytes) -> Format | None:
     """Return the format recognised from the first bytes of a file, or None."""
-    head = head[:HEAD_BYTES]
-    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        # an even number of bytes: UTF-16 code units
-        head = head[: HEAD_BYTES - 2].decode("utf-16", "replace").encode()
+    head = normalize_text(RawFile("", head[:HEAD_BYTES])).data
     return next((f for f in list_formats() if f.matches is not None and f.matches(head)), None)
 
 

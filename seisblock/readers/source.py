@@ -10,7 +10,7 @@ import re
 import stat
 import sys
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
@@ -207,6 +207,26 @@ def sha256_digest(blobs: Iterable[RawFile]) -> str:
         for piece in blob.chunks():
             total.update(memoryview(piece)[:LARGE_FILE_BYTES])
     return total.hexdigest()
+
+
+def normalize_text(blob: RawFile) -> RawFile:
+    """Return a text file without byte order mark, DOS end-of-file characters and CR line ends; other files and large ones unchanged.
+
+    UTF-16 with a byte order mark becomes UTF-8. Formats are recognised from the first bytes, and some are decoded by ObsPy.
+    """
+    data = blob.content
+    if not isinstance(data, bytes):
+        return blob
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        data = data[: len(data) // 2 * 2].decode("utf-16", "replace").encode()
+    elif is_binary(data):
+        return blob
+    data = data.removeprefix(codecs.BOM_UTF8)
+    if b"\n" not in data[:HEAD_BYTES] and b"\r" in data[:HEAD_BYTES]:
+        data = data.replace(b"\r", b"\n")
+    if b"\x1a" in data[-HEAD_BYTES:]:
+        data = re.sub(rb"(?:\x1a\s*)+\Z", b"", data)
+    return blob if data is blob.content else replace(blob, content=data)
 
 
 def decode_text(blob: RawFile) -> str:

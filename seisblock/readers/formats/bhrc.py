@@ -49,7 +49,7 @@ def read_bhrc(blob: RawFile) -> Record:
         component, dt, end = _parse_channel(name, lines, begin)
         components.append(component)
         intervals.append(dt)
-        complete = complete and lines[end : end + 1] == ["/&"]
+        complete = complete and [line.strip() for line in lines[end : end + 1]] == ["/&"]
     if len(set(intervals)) > 1:
         raise line_error("expected one sampling interval, found {found}", name, begins[-1] + 6, found=[f"{dt:g}" for dt in intervals])
     text = " ".join(lines[begins[0] : begins[0] + 4])
