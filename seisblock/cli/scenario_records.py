@@ -17,7 +17,7 @@ from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.units import GAL, KINE
 
 if TYPE_CHECKING:
-    from seisblock.records import Record
+    from seisblock.records import Record, Storey
     from seisblock.studies.scenario.hazard import RecordFrequencies
     from seisblock.studies.scenario.motions import ScenarioTarget
 
@@ -97,7 +97,7 @@ def load_scenario(source: Source, params: Mapping[str, Any], *, seed: int) -> Sc
         label = lazy_gettext("{names}", names=names[:3]) if len(names) <= 3 else lazy_gettext("{count} records", count=len(names))
         if target is not None:
             label = lazy_gettext("{names}, scaled to {target}", names=label, target=target.label)
-        return ScenarioMotions(records, label, (), target, False)
+        return ScenarioMotions(records, _on_floor(label, source.floor), (), target, False)
     if target is None:
         raise ParameterError("scenario required: give --jma, --pga (with or without --pgv), --pgv or --sa, or a RECORD")
     reject_with(
@@ -108,7 +108,24 @@ def load_scenario(source: Source, params: Mapping[str, Any], *, seed: int) -> Sc
         records, notes = scenario_suite(target, params["records"] or DEFAULT_RECORDS, seed=seed)
         preparation = make_preparation(source, ())
         records = [preparation.apply(record) for record in records]
-    return ScenarioMotions(records, target.label, notes, target, True)
+    label = _on_floor(target.label, source.floor)
+    if source.floor is not None:
+        notes = (*notes, lazy_gettext("{scenario}: the intensity is that of the ground", scenario=label))
+    return ScenarioMotions(records, label, notes, target, True)
+
+
+def _on_floor(label: Message, floor: Storey | None) -> Message:
+    """Return the label of a scenario with its floor, on which it otherwise looks like one on the ground."""
+    if floor is None:
+        return label
+    height = "" if floor.height is None else lazy_gettext(", height ratio {height:g}", height=floor.height)
+    return lazy_gettext(
+        "{scenario}, floor motion T {period:g} s, damping {damping:g}{height}",
+        scenario=label,
+        period=floor.period_s,
+        damping=floor.damping,
+        height=height,
+    )
 
 
 def load_hazard(path: Path, *, years: float, target: float, seed: int) -> tuple[ScenarioMotions, RecordFrequencies]:

@@ -11,7 +11,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.bodies.free_standing import free_standing_options
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.console import info
+from seisblock.cli.console import info, warning
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with, reject_without
 from seisblock.cli.options import Source, check_callback, output_options, scenario_record_options
 from seisblock.cli.output import OutputOptions
@@ -19,6 +19,7 @@ from seisblock.cli.scenario import scenario_options
 from seisblock.cli.scenario_records import load_hazard, load_scenario
 from seisblock.cli.types import LENGTH, MU
 from seisblock.core import checks
+from seisblock.core.i18n import lazy_gettext
 from seisblock.models.respond.options import RespondOptions
 
 if TYPE_CHECKING:
@@ -116,8 +117,12 @@ def secure(
     from seisblock.output.io.atomic import write_table
     from seisblock.report.json.secure import document
     from seisblock.report.text import secure as text_output
-    from seisblock.studies.scenario.secure import find_measures
+    from seisblock.studies.scenario.secure import find_measures, unresolved_target
 
+    # before the records are generated
+    checks.in_interval("the target probability", target, "(0, 1)")
+    if restraint_height is not None:
+        checks.positive("the height of the restraint", restraint_height, "m")
     intensity = {name: params.pop(name) for name in ("jma", "pga", "pgv", "frequency", "sa", "records")}
     common = {"vertical": vertical, "gravity": gravity, "settle_s": settle_s}
     if bodies is None:
@@ -151,6 +156,11 @@ def secure(
             seed=seed,
             progress=advance,
         )
+    notes = motions.notes
+    if (limit := unresolved_target(result)) is not None:
+        text = "target too small for {runs} runs: even without an overturning the probability may be {limit:.1%} (95 % confidence)"
+        notes = (*notes, lazy_gettext(text, runs=result.runs, limit=limit))
+        warning("{note}", note=notes[-1])
 
     def figure() -> Any:
         from seisblock.report.figures.secure import figure as make_figure
@@ -165,6 +175,7 @@ def secure(
             mu=None if body_notes else body.options.mu,
             seed=seed,
             hazard=None if hazard is None else hazard.name,
+            notes=notes,
         ),
         output,
         tables=lambda: text_output.tables(result, motions.label),

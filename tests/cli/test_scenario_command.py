@@ -56,10 +56,32 @@ def test_scenario_scales_the_record_to_pga_and_pgv_before_the_floor():
     assert parameters["pgv_m_s"] == pytest.approx(3.0 / (2 * 3.141592653589793 * 1.5))
 
 
+def test_scenario_names_the_floor_in_its_first_line_and_notes():
+    line = ("scenario", "--jma", "5-", "--records", "10", "--bodies", "display_case", "--floor", "T=0.5,height=0.8")
+    floor = "floor motion T 0.5 s, damping 0.05, height ratio 0.8"
+    assert f"JMA intensity 4.75 (class 5-), {floor}, 1 object:" in " ".join(run(*line, "--quiet").stdout.split())
+    assert json.loads(run(*line, "--json").stdout)["notes"][-1].endswith(f"{floor}: the intensity is that of the ground")
+    record = run("scenario", *SHORT, "--bodies", "display_case", "--floor", "T=0.5", "--quiet")
+    assert record.stdout.startswith("SYN, floor motion T 0.5 s, damping 0.05, 1 object:")
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (("--target", "0"), "the target probability must lie in (0, 1)"),
+        (("--restraint-height", "0"), "the height of the restraint must be positive"),
+    ],
+)
+def test_secure_rejects_numbers_before_it_generates_records(args, message):
+    result = run("secure", "--jma", "6-", "--block", "bookcase", *args)
+    assert result.exit_code == 3 and message in result.stderr and "records" not in result.stderr
+
+
 @pytest.mark.parametrize(
     ("args", "message"),
     [
         (("--bodies", "statue"), "scenario required"),
+        (("--bodies", "statue", "--jma", "6+", "--mu", "-0.2"), "mu must be zero or more"),
         (("--bodies", "statue", "--jma", "6+", "--pga", "400"), "one intensity"),
         (("--bodies", "statue", "--jma", "6+", "--target-pga", "400"), "--target-pga"),
         (("--bodies", "statue", "--pga", "nan"), "--pga"),

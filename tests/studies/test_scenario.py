@@ -25,7 +25,7 @@ from seisblock.readers import read
 from seisblock.records import Motion, Preparation, Storey, motion_of, scale, scale_to_jma, synthetic_suite
 from seisblock.report.text.scenario import csv_columns, object_name
 from seisblock.report.text.scenario import tables as scenario_tables
-from seisblock.report.text.secure import measure_note
+from seisblock.report.text.secure import measure_note, verdict
 from seisblock.studies.assessment import classify
 from seisblock.studies.fragility.run import run_fragility
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
@@ -45,8 +45,10 @@ from seisblock.studies.scenario.secure import (
     RESTRAINT,
     WIDTH,
     Measure,
+    Security,
     changed_body,
     find_measures,
+    unresolved_target,
     with_base_mass,
 )
 
@@ -322,6 +324,17 @@ def test_restraint_demand_is_the_smallest_force_in_equilibrium(offset, height, m
         slides.append(demand.foot_slides)
         if answer.success:
             assert demand.force == pytest.approx(answer.fun, abs=1e-9)
+        # a stop at the foot as well: the restraint bears as little as possible, then the stop
+        with_stop = [[1, 0, 1, 0, 0, 1], [0, 0, 0, 1, 1, 0], [0.75 - height, 0, 0.75, -0.2 - offset, 0.2 - offset, 0.75]]
+        answer = linprog(
+            [0, 1e4, 0, 0, 0, 0, 1],
+            A_ub=[[*row, 0, 0] for row in limits] + [[0, 0, 0, 0, 0, 1, -1], [0, 0, 0, 0, 0, -1, -1]],
+            b_ub=[0] * 6,
+            A_eq=[[*row, 0] for row in with_stop],
+            b_eq=[a, g + up, 0],
+            bounds=[free, positive, free, positive, positive, free, positive],
+        )
+        assert (demand.moment / height, demand.foot_force) == pytest.approx((answer.x[1], answer.x[6]), abs=1e-7)
     # a strap at the top of an object on a smooth floor, or far below its centre of gravity, does not hold the foot
     assert any(slides) is ((height, mu) in ((1.5, 0.3), (0.4, 0.3))) and not all(slides)
 
@@ -412,11 +425,11 @@ def test_find_measures_restraint_is_exceeded_in_the_target_share(security):
     assert item.unit == "N"
     # other versions: the share within the sampling error
     pairs = motion_pairs(records)
-    _, forces, _ = case_demands(body, pairs, draw_cases(len(records), 77, versions=16), height_m=1.5, variation=VERSIONS)
+    forces = case_demands(body, pairs, draw_cases(len(records), 77, versions=16), height_m=1.5, variation=VERSIONS).force
     assert (60.0 * forces > item.value).mean() == pytest.approx(0.1, abs=2.0 * math.sqrt(0.1 * 0.9 / 320))
     assert item.overturning_probability <= 0.1
     # without variation every run has the demand of the body itself
-    _, forces, _ = case_demands(body, pairs, draw_cases(len(records), 0), height_m=1.5, variation=NOTHING)
+    forces = case_demands(body, pairs, draw_cases(len(records), 0), height_m=1.5, variation=NOTHING).force
     demands = [max(restraint_demand(body.body, motion, height_m=1.5, mu=0.5, gravity=9.80665).force for motion in pair) for pair in pairs]
     assert forces == pytest.approx(np.repeat(demands, 2).reshape(-1, 2), rel=1e-12)
 
@@ -448,11 +461,29 @@ def test_assess_peaks_counts_blocks_that_fall_under_either_horizontal(monkeypatc
     assert result.frequency_hz == pytest.approx(4.0 / (2 * math.pi * 0.5))
 
 
+def test_measure_note_gives_the_force_on_a_stop_at_the_foot():
+    restraint = Measure("restraint", 900.0, "N", 0.05, moment=800.0, height_m=1.8, foot_slip_probability=0.4, foot_force=350.4)
+    assert measure_note(restraint) == "at 1.80 m; moment at the edge 800 N m; stop at the foot also required, 350 N: it slides in 40 %"
+    multiple = replace(restraint, unit="1", moment=0.5, foot_force=0.25)
+    assert measure_note(multiple).endswith("also required, 0.250 times its weight: it slides in 40 %")
+    assert "foot" not in measure_note(replace(restraint, foot_slip_probability=0.0, foot_force=None))
+
+
+def test_unresolved_target_is_one_that_no_overturning_in_all_runs_would_not_show():
+    result = Security("shelf", 0.009, 0.5, 320, ())
+    # (1 - p)^320 = 0.05
+    assert unresolved_target(result) == pytest.approx(1.0 - 0.05 ** (1 / 320))
+    assert unresolved_target(replace(result, target_probability=0.0094)) is None
+    assert unresolved_target(replace(result, years=50.0)) is None
+    assert "target 0.9 %" in verdict(result, "scenario")
+
+
 def test_measure_note_marks_the_end_of_the_search():
     curve = ((0.2, 0.01), (0.5, 0.0))
     assert measure_note(Measure("width", 0.2, "m", 0.01, curve=curve)) == "narrowest base searched"
     assert measure_note(Measure("width", 0.5, "m", 0.0, curve=curve)) == ""
     assert measure_note(Measure("height", 0.5, "m", 0.0, curve=curve)) == "greatest height searched"
+    assert measure_note(Measure("friction", 0.5, "1", 0.0, curve=curve)) == "largest friction searched"
 
 
 def test_stopped_runs_are_excluded_and_named(monkeypatch):

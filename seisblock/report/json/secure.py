@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import msgspec
@@ -36,7 +37,14 @@ SECURE = DocumentSchema(
 
 
 def document(
-    result: Security, motions: Any, options: RespondOptions, *, mu: float | None, seed: int, hazard: str | None = None
+    result: Security,
+    motions: Any,
+    options: RespondOptions,
+    *,
+    mu: float | None,
+    seed: int,
+    hazard: str | None = None,
+    notes: Sequence[str] = (),
 ) -> Document:
     """Return the document of the measures of one object.
 
@@ -51,6 +59,8 @@ def document(
     seed : int
     hazard : str or None
         File of the hazard.
+    notes : sequence of str
+        Origin of the motions, assumptions.
     """
     values = {"mu": mu, "vertical": options.vertical, "gravity_m_s2": options.gravity, "seed": seed}
     scenario = scenario_parameters(motions.target, motions.records, values, suite=motions.is_suite)
@@ -59,5 +69,5 @@ def document(
         [(None, to_entry(SECURE_RESULT, result))],
         records=() if motions.is_suite else motions.records,
         citations=command_papers("secure"),
-        notes=[str(note) for note in motions.notes],
+        notes=[str(note) for note in notes],
     )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from seisblock.bodies.body_name import body_name
-from seisblock.core.i18n import N_, format_share, gettext, join_clauses, join_list
+from seisblock.core.i18n import N_, format_percent, format_share, gettext, join_clauses, join_list
 from seisblock.output.text.tables import DASH, format_number, styled_line, table
 from seisblock.studies.scenario.secure import BASE_MASS, FRICTION, HEIGHT, INSET, RESTRAINT, WIDTH, Measure, Security, with_reason
 
@@ -34,10 +34,14 @@ def measure_value(measure: Measure) -> str:
         return f"{measure.value:.2f}"
     if measure.unit == "kg":
         return f"{measure.value:.0f} kg"
-    if measure.unit == "N":
-        return f"{measure.value:.0f} N"
-    text = N_("{value} times its mass") if measure.measure == BASE_MASS else N_("{value} times its weight")
-    return gettext(text, value=format_number(measure.value, 3))
+    if measure.measure == BASE_MASS:
+        return gettext("{value} times its mass", value=format_number(measure.value, 3))
+    return _force(measure.value, measure.unit)
+
+
+def _force(value: float, unit: str) -> str:
+    """Return a force with its unit, or as a multiple of the weight."""
+    return f"{value:.0f} N" if unit == "N" else gettext("{value} times its weight", value=format_number(value, 3))
 
 
 def measure_note(measure: Measure) -> str:
@@ -51,8 +55,9 @@ def measure_note(measure: Measure) -> str:
             else gettext("{value} m times its weight", value=format_number(measure.moment, 3))
         )
         notes = [gettext("at {height:.2f} m; moment at the edge {moment}", height=measure.height_m, moment=moment)]
-        if measure.foot_slip_probability:
-            notes.append(gettext("stop the foot, too: it slides in {share}", share=format_share(measure.foot_slip_probability)))
+        if measure.foot_slip_probability and measure.foot_force is not None:
+            share, force = format_share(measure.foot_slip_probability), _force(measure.foot_force, measure.unit)
+            notes.append(gettext("stop at the foot also required, {force}: it slides in {share}", share=share, force=force))
         return join_clauses(notes)
     notes = [text] if (text := _search_end(measure)) else []
     if measure.displacement_m is not None and measure.displacement_m >= 0.01:
@@ -68,6 +73,7 @@ def _search_end(measure: Measure) -> str:
     ends = {
         WIDTH: (min, N_("narrowest base searched")),
         HEIGHT: (max, N_("greatest height searched")),
+        FRICTION: (max, N_("largest friction searched")),
         INSET: (max, N_("largest inset searched")),
     }
     if measure.measure not in ends or not values:
@@ -86,7 +92,7 @@ def verdict(result: Security, label: str) -> str:
         body=body_name(result.body),
         scenario=gettext(label),
         now=format_share(result.overturning_probability),
-        target=format_share(result.target_probability),
+        target=format_percent(result.target_probability, ".3g"),
     )
 
 

@@ -106,6 +106,8 @@ def scenario_bodies(
     effect. Without any friction it is drawn from 0.2 to 0.7, median 0.4. A name that was used before gets a number.
     """
     given_options = {key: value for key, value in (options or {}).items() if value is not None}
+    if "mu" in given_options:
+        checks.non_negative("the friction coefficient mu", given_options["mu"])
     with_kind = [_with_kind(spec) for spec in specs]
     specs = _with_distinct_names([spec for spec, _ in with_kind])
     notes: list[Message] = []

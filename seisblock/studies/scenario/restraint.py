@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -27,12 +27,32 @@ class RestraintDemand:
     force : float, m/s^2
         Horizontal force that prevents uplift and sliding, over the mass.
     foot_slides : bool
-        Whether no force at this height alone holds the object at some instant: its foot slides away and has to be stopped, too.
+        Whether no force at this height alone holds the object at some instant: its foot slides away and requires a stop of its own.
+    foot_force : float, m/s^2
+        Horizontal force on such a stop, over the mass; the restraint then prevents uplift alone.
     """
 
     moment: float
     force: float
     foot_slides: bool
+    foot_force: float
+
+
+@dataclass(frozen=True, eq=False)
+class CaseDemands:
+    """Actions on a restraint in many runs, the larger ones of both horizontals; arrays (records, cases), see :class:`RestraintDemand`.
+
+    Parameters
+    ----------
+    moment : m^2/s^2
+    force, foot_force : m/s^2
+    foot_slides : bool
+    """
+
+    moment: FloatArray
+    force: FloatArray
+    foot_slides: BoolArray
+    foot_force: FloatArray
 
 
 def restraint_demand(
@@ -43,8 +63,8 @@ def restraint_demand(
     While the object moves with the floor its inertia force m a acts at the centre of gravity. Moments about the edge of its base
     give F z = m (abs(a) h - (g + a_v) b), horizontal forces F >= m (abs(a) - mu (g + a_v)); both are taken at each sample, between which
     the motion is linear, and not below 0. Friction at the base takes the rest, m (abs(a) - F), as long as it can, and the reaction of the
-    floor lies within the base as long as F z <= m (abs(a) h + (g + a_v) b). Derived here; quasi-static: the restraint is stiff and has no
-    slack.
+    floor lies within the base as long as F z <= m (abs(a) h + (g + a_v) b). Beside a stop at the foot the restraint bears the first of both
+    forces alone, and the stop abs(m abs(a) - F) - m mu (g + a_v). Derived here; quasi-static: the restraint is stiff and has no slack.
 
     Parameters
     ----------
@@ -62,8 +82,8 @@ def restraint_demand(
     --------
     >>> motion = Motion.from_arrays([0.0, 5.0, 0.0], 0.01)
     >>> demand = restraint_demand(Block(0.4, 1.2), motion, height_m=1.2, mu=0.3, gravity=10.0)
-    >>> round(demand.moment, 12), demand.force, demand.foot_slides
-    (1.0, 2.0, False)
+    >>> round(demand.moment, 12), demand.force, demand.foot_slides, round(demand.foot_force, 12)
+    (1.0, 2.0, False, 1.166666666667)
     >>> restraint_demand(Block(0.4, 1.2), motion, height_m=0.1, mu=0.3, gravity=10.0).foot_slides
     True
     """
@@ -71,12 +91,8 @@ def restraint_demand(
     return _demand(block.arms, block.centre, mu, motion.horizontal, weight, height_m)
 
 
-def case_demands(
-    body: SolverBody, pairs: Pairs, draws: FloatArray, *, height_m: float, variation: ParameterVariation
-) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Return moments and forces of all runs, and whether the foot slides away, (records, cases).
-
-    Each is the larger one of both horizontals, per mass of the object.
+def case_demands(body: SolverBody, pairs: Pairs, draws: FloatArray, *, height_m: float, variation: ParameterVariation) -> CaseDemands:
+    """Return the actions on the restraint in all runs, per mass of the object.
 
     Parameters
     ----------
@@ -85,16 +101,11 @@ def case_demands(
     pairs, draws, variation
         As in :func:`~seisblock.studies.scenario.runs.run_cases`.
     height_m : float, m
-
-    Returns
-    -------
-    moments : array, m^2/s^2
-    forces : array, m/s^2
-    slides : array of bool
     """
     options = body.options
     _, rows = case_params(body, pairs, draws, variation)
-    moments, forces, slides = np.zeros(draws.shape[:2]), np.zeros(draws.shape[:2]), np.zeros(draws.shape[:2], bool)
+    shape = draws.shape[:2]
+    result = CaseDemands(np.zeros(shape), np.zeros(shape), np.zeros(shape, bool), np.zeros(shape))
     for r, motions in enumerate(pairs):
         for c, motion in enumerate(motions):
             gains = sample_gains(motion, variation, draws[r], options.vertical)
@@ -102,9 +113,10 @@ def case_demands(
                 right, left, centre, _, mu, *_ = column
                 along = gain[0] * motion.horizontal + gain[1] * motion.transverse
                 demand = _demand((right, left), centre, mu, along, options.gravity + gain[2] * motion.vertical, height_m)
-                moments[r, k], forces[r, k] = max(moments[r, k], demand.moment), max(forces[r, k], demand.force)
-                slides[r, k] |= demand.foot_slides
-    return moments, forces, slides
+                for field in fields(CaseDemands):
+                    values = getattr(result, field.name)
+                    values[r, k] = max(values[r, k], getattr(demand, field.name))
+    return result
 
 
 def _demand(arms: Sequence[float], centre: float, mu: float, a: FloatArray, weight: FloatArray, height_m: float) -> RestraintDemand:
@@ -115,4 +127,6 @@ def _demand(arms: Sequence[float], centre: float, mu: float, a: FloatArray, weig
     moment = np.maximum(size * centre - weight * near_arm, 0.0)
     force = np.maximum(np.maximum(moment / height_m, size - mu * weight), 0.0)
     largest = np.minimum(size + mu * weight, (size * centre + weight * far_arm) / height_m)
-    return RestraintDemand(float(moment.max()), float(force.max()), bool((force > largest).any()))
+    # below the centre of gravity the restraint may take more than the inertia force: the foot then slides to the other side
+    foot_force = np.maximum(np.abs(size - moment / height_m) - mu * weight, 0.0)
+    return RestraintDemand(float(moment.max()), float(force.max()), bool((force > largest).any()), float(foot_force.max()))

@@ -17,6 +17,7 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.core.registry import SolverBody
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.records.record import Record
+from seisblock.studies.intervals import clopper_pearson
 from seisblock.studies.sampling import ParameterVariation
 from seisblock.studies.scenario.assess import versions_for
 from seisblock.studies.scenario.hazard import RecordFrequencies
@@ -68,6 +69,8 @@ class Measure(DisplayMixin):
         Of a restraint: height of its force.
     foot_slip_probability : float or None, 1
         Of a restraint: share of the runs in which no force at this height alone holds the object, since its foot slides away.
+    foot_force : float or None
+        Of a restraint: force on a stop at the foot, in the unit of the value, where the foot may slide.
     materials : tuple of str
         Pairs of surfaces with a friction up to the value.
     curve : tuple of (float, float)
@@ -84,6 +87,7 @@ class Measure(DisplayMixin):
     moment: float | None = None
     height_m: float | None = None
     foot_slip_probability: float | None = None
+    foot_force: float | None = None
     materials: tuple[str, ...] = ()
     curve: tuple[tuple[float, float], ...] = ()
     reason: str | None = None
@@ -112,6 +116,17 @@ class Security(DisplayMixin):
     runs: int
     measures: tuple[Measure, ...]
     years: float | None = None
+
+
+def unresolved_target(result: Security) -> float | None:
+    """Return the probability that runs without an overturning leave possible (95 %), if the target of a scenario lies below it.
+
+    Parameters
+    ----------
+    result : Security
+    """
+    limit = clopper_pearson(0, result.runs, confidence=0.90)[1]
+    return limit if result.years is None and result.target_probability < limit else None
 
 
 def with_base_mass(block: Block, ratio: float) -> Block:
@@ -216,6 +231,7 @@ def find_measures(
         If a number is out of range.
     """
     checks.in_interval("the target probability", target, "(0, 1)")
+    height = None if restraint_height_m is None else checks.positive("the height of the restraint", restraint_height_m, "m")
     if not isinstance(body.body, Block):
         raise BodyError("{name}: measures require a block with a width and a height; give the sizes of the object", name=body.name)
     if body.body.depth is not None and body.body.depth < body.body.width:
@@ -237,8 +253,7 @@ def find_measures(
         )
         decided = {value for key, value in full if key == name}
         measures.append(_measure(body, name, rows, decided, target, has_mass=has_mass))
-    height = body.body.height if restraint_height_m is None else checks.positive("the height of the restraint", restraint_height_m, "m")
-    measures.append(_restraint(search, target, height, has_mass=has_mass))
+    measures.append(_restraint(search, target, body.body.height if height is None else height, has_mass=has_mass))
     years = None if frequencies is None else frequencies.years
     return Security(body.name, target, search.own_probability(), search.runs, tuple(measures), years)
 
@@ -374,25 +389,31 @@ def _measure(
 def _restraint(search: _Search, target: float, height_m: float, *, has_mass: bool) -> Measure:
     """Return the force of a restraint that is exceeded with the target probability over the runs."""
     body, weights = search.body, search.weights
-    moments, forces, slides = case_demands(body, search.pairs, search.draws, height_m=height_m, variation=search.variation)
+    demands = case_demands(body, search.pairs, search.draws, height_m=height_m, variation=search.variation)
     block: Block = body.body
     factor, unit = (block.total_mass, "N") if has_mass else (1.0 / body.options.gravity, "1")
-    levels = np.unique(forces).tolist()
-    exceeded = [weights.probability((forces > level).mean(axis=1)) for level in levels]
-    curve = tuple((level * factor, share) for level, share in zip(levels, exceeded, strict=True))
-    # the smallest of the computed demands that is exceeded with at most the target probability
-    index = next(i for i, share in enumerate(exceeded) if share <= target)
-    moment = next(level for level in np.unique(moments).tolist() if weights.probability((moments > level).mean(axis=1)) <= target)
+
+    def exceedance(values: FloatArray) -> list[tuple[float, float]]:
+        return [(level, weights.probability((values > level).mean(axis=1))) for level in np.unique(values).tolist()]
+
+    def smallest(curve: Sequence[tuple[float, float]]) -> tuple[float, float]:
+        """Return the smallest of the computed demands that is exceeded with at most the target probability."""
+        return next(item for item in curve if item[1] <= target)
+
+    forces = exceedance(demands.force)
+    force, share = smallest(forces)
+    slips = weights.probability(demands.foot_slides.mean(axis=1))
     return Measure(
         RESTRAINT,
-        levels[index] * factor,
+        force * factor,
         unit,
-        exceeded[index],
+        share,
         0.0,
-        moment=moment * factor,
+        moment=smallest(exceedance(demands.moment))[0] * factor,
         height_m=height_m,
-        foot_slip_probability=weights.probability(slides.mean(axis=1)),
-        curve=curve,
+        foot_slip_probability=slips,
+        foot_force=smallest(exceedance(demands.foot_force))[0] * factor if slips > 0.0 else None,
+        curve=tuple((level * factor, exceeded) for level, exceeded in forces),
     )
 
 
