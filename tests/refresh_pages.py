@@ -1,16 +1,38 @@
 """Update outputs and figures of pages: ``python -m tests.refresh_pages [PAGE]...``; all pages without one.
 
-A changed output is written in full; shorten it with a line ``...``.
+A changed output keeps its omissions (lines ``...``): between them stand the lines that resemble the old ones most.
 """
 
 import contextlib
+import difflib
 import os
 import re
 import sys
 import tempfile
 from pathlib import Path
 
-from tests.pages import FENCED, PAGES, ROOT, figures_of, lines_of, matches, run_command, run_session, save_figure
+from tests.pages import ANYTHING, FENCED, PAGES, ROOT, figures_of, lines_of, matches, run_command, run_session, save_figure
+
+
+def shorten(shown: str, output: str) -> str:
+    """Return an output with the omissions of the one shown before."""
+    lines, parts, first = output.split("\n"), [part.strip("\n").split("\n") for part in f"\n{shown}\n".split(f"\n{ANYTHING}\n")], 0
+    result: list[str] = []
+    for number, part in enumerate(parts):
+        if part == [""]:
+            result.append("")
+            continue
+        last = len(lines) - len(part)
+        starts = [0] if number == 0 else [last] if number == len(parts) - 1 else range(first, last + 1)
+        first = max(starts, key=lambda start, part=part: sum(map(similarity, part, lines[start : start + len(part)])))
+        result.append("\n".join(lines[first : first + len(part)]))
+        first += len(part)
+    return f"\n{ANYTHING}\n".join(result).strip("\n")
+
+
+def similarity(one: str, other: str) -> float:
+    """Return how alike two lines are, 0 to 1."""
+    return difflib.SequenceMatcher(None, one, other).ratio()
 
 
 def console(block: str) -> str:
@@ -18,7 +40,7 @@ def console(block: str) -> str:
     lines = []
     for line in lines_of(block):
         output = run_command(line.command)
-        lines += [f"$ {line.command}", *filter(None, [line.output if matches(line.output, output) else output])]
+        lines += [f"$ {line.command}", *filter(None, [line.output if matches(line.output, output) else shorten(line.output, output)])]
     return "\n".join(lines) + "\n"
 
 

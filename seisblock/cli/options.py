@@ -175,9 +175,8 @@ _RECORD_OPTIONS = (
         type=STOREY,
         metavar="T=S[,zeta=0.05][,height=0.8]",
         section="Record",
-        help="Floor motion: absolute acceleration of an oscillator of period T, s, and damping ratio zeta, or of a floor at this share of "
-        "the building height (first mode, 0 ground, 1 roof). After --scale, before --window; not the vertical component. [default: "
-        "ground motion]",
+        help="Floor motion: oscillator of period T, s, and damping ratio zeta, at this share of the building height (first mode, "
+        "1 roof). After --scale, before --window; not the vertical component. [default: ground motion]",
     ),
     option(
         "--demean/--no-demean",

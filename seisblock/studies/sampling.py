@@ -151,7 +151,7 @@ class Samples(DisplayMixin):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Clopper-Pearson interval of the probability, 95 %: sampling interval only, model error not included."""
+        """Clopper-Pearson interval of the probability, 95 %; stratified samples scatter less than it assumes, model error not included."""
         return clopper_pearson(int(self.overturned.sum()), self.completed)
 
     @property
@@ -237,12 +237,19 @@ def sample(
 
 
 def draw_samples(runs: int, seed: int, *, stones: int = 0) -> FloatArray:
-    """Return the draws of samples, uniform in [-1, 1], (runs, 8 + stones)."""
+    """Return the draws of samples, uniform in [-1, 1], (runs, 8 + stones): Latin hypercube, one draw per stratum of each column."""
     rng = np.random.default_rng(checks.seed(seed))
+    # independent draws of one seed err alike for every object: over 32 objects of medium probability by up to .03
     # a seed must give the same block, whatever the number of stones, so that models can be compared sample by sample
     # one block of columns after the other, so that those of a block do not depend on what is drawn after them
     widths = (AZIMUTH + 1, 1, 1, stones)
-    return np.column_stack([rng.uniform(-1.0, 1.0, (runs, width)) for width in widths])
+    return np.column_stack([_stratified(rng, runs, width) for width in widths])
+
+
+def _stratified(rng: np.random.Generator, runs: int, columns: int) -> FloatArray:
+    """Return draws in [-1, 1] with one of each column in each of `runs` equal strata, (runs, columns)."""
+    strata = rng.permuted(np.broadcast_to(np.arange(runs)[:, None], (runs, columns)), axis=0)
+    return 2.0 * (strata + rng.uniform(size=(runs, columns))) / runs - 1.0
 
 
 def sample_blocks(block: Block, variation: ParameterVariation, draws: FloatArray) -> BlockArray:

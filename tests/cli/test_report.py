@@ -268,9 +268,9 @@ def test_report_document_has_assessment_per_body_and_direction(report_document):
         *(("block 0.6 x 1 m", name) for name in ("NS", "EW")),
     ]
     for body, pair in zip(report_document["object"], (results[:2], results[2:]), strict=True):
-        shares = [entry["assessment"]["overturning_probability"] for entry in pair]
-        assert max(shares) <= body["overturning_probability"] <= sum(shares) and body["runs"] == 200
-        assert body["direction"] == pair[shares.index(max(shares))]["component"]
+        shares = {entry["component"]: entry["assessment"]["overturning_probability"] for entry in pair}
+        assert max(shares.values()) <= body["overturning_probability"] <= sum(shares.values()) and body["runs"] == 200
+        assert shares[body["direction"]] == max(shares.values())
     words = ["respond", "--block", "gravestone", "--window", "22:29", "--component", "EW", "--json"]
     single = json.loads(CliRunner().invoke(main, words).stdout)["results"][0]
     assert results[1]["assessment"] == single["assessment"]

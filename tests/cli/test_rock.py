@@ -75,10 +75,11 @@ def test_rock_document_has_result_per_component(run, pulse):
 
 
 def test_rock_sizes_in_sun_equal_bundled_gravestone(run, pulse):
-    """8 sun by 20.8 sun with edges worn by a twentieth per side is the bundled gravestone."""
+    """8 sun by 20.8 sun with edges worn by a twentieth per side is the bundled gravestone; a given inset varies less than that of the kind."""
     sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--inset", "5%", "--json").stdout)
     output = json.loads(run(pulse, "--block", "gravestone", "--json").stdout)
-    assert sizes["results"] == output["results"]
+    for one, other in zip(sizes["results"], output["results"], strict=True):
+        assert {**one, "assessment": None} == {**other, "assessment": None}
     assert output["parameters"]["block"]["width_m"] == pytest.approx(0.2424)
 
 

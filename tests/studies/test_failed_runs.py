@@ -21,7 +21,7 @@ from seisblock.studies.respond.probability import respond_probability
 from tests.models.respond.cases import at_lean
 
 BLOCK = Block(0.24, 0.8, name="shelf")
-PULSE = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+PULSE = Motion.from_arrays(5.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
 
 
 @pytest.fixture
