@@ -75,7 +75,7 @@ def test_rock_document_has_result_per_component(run, pulse):
 
 
 def test_rock_sizes_in_sun_equal_bundled_gravestone(run, pulse):
-    """8 sun by 20.8 sun with edges worn by a twentieth per side is the bundled gravestone; a given inset varies less than that of the kind."""
+    """8 sun by 20.8 sun, edges worn by a twentieth per side: the bundled gravestone, but for the tolerance of the given inset."""
     sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--inset", "5%", "--json").stdout)
     output = json.loads(run(pulse, "--block", "gravestone", "--json").stdout)
     for one, other in zip(sizes["results"], output["results"], strict=True):
