@@ -79,6 +79,12 @@ def option(help: str, flag: str = "", **attributes: Any) -> dict[str, OptionFiel
     return {KEY: OptionField(help, flag, **attributes)}
 
 
+def friction(help: str) -> dict[str, OptionField]:  # noqa: A002
+    """Return the metadata of the friction coefficient between an object and its base."""
+    label = N_("the friction coefficient mu")
+    return option(help, "--mu", unit="1", interval="[0, inf)", label=label, kind="friction", metavar="MU", section="Body")
+
+
 VERTICAL = option(
     N_("Apply or omit the vertical component. [default: applied where the record has one]"),
     "--vertical/--no-vertical",

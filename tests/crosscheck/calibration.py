@@ -275,7 +275,7 @@ def main() -> None:
     """Print the table of each reference, whole and by record."""
     parser = argparse.ArgumentParser(description=main.__doc__)
     parser.add_argument("--stones", type=int, default=40, help="stones per motion")
-    parser.add_argument("--seed", type=int, default=SEED, help=f"seed of the stones; the page has {SEED} and, planar, {SEED + 1000}")
+    parser.add_argument("--seed", type=int, default=SEED, help=f"seed of the stones; page: {SEED}, planar also +1000, +2000, +3000")
     parser.add_argument("--vary-restitution", type=float, default=0.1, help="half width in three dimensions")
     parser.add_argument("--reference", choices=("planar", "rigid3d", "stack"), action="append")
     options = parser.parse_args()

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from seisblock.core.i18n import N_
-from seisblock.core.options import GRAVITY, VERTICAL, SolverOptions, documented, option
+from seisblock.core.options import GRAVITY, VERTICAL, SolverOptions, documented, friction, option
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records._validation import Gain
 
@@ -17,18 +17,7 @@ from seisblock.records._validation import Gain
 class RespondOptions(SolverOptions):
     """Options of :func:`~seisblock.models.respond.solve.solve_respond`."""
 
-    mu: float = field(
-        metadata=option(
-            N_("Static friction coefficient. [default: value of the body; else required]"),
-            "--mu",
-            unit="1",
-            interval="[0, inf)",
-            label=N_("the friction coefficient mu"),
-            kind="friction",
-            metavar="MU",
-            section="Body",
-        )
-    )
+    mu: float = field(metadata=friction(N_("Static friction coefficient. [default: value of the body; else required]")))
     mu_kinetic: float | None = field(
         default=None,
         metadata=option(

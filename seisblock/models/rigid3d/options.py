@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from seisblock.core.i18n import N_
-from seisblock.core.options import ACROSS, GRAVITY, VERTICAL, SolverOptions, documented, option
+from seisblock.core.options import ACROSS, GRAVITY, VERTICAL, SolverOptions, documented, friction, option
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records._validation import Gain
 
@@ -16,18 +16,7 @@ from seisblock.records._validation import Gain
 class Rigid3dOptions(SolverOptions):
     """Options of :func:`~seisblock.models.rigid3d.solve.solve_rigid3d`."""
 
-    mu: float = field(
-        metadata=option(
-            N_("Friction coefficient. [default: value of the body; else required]"),
-            "--mu",
-            unit="1",
-            interval="[0, inf)",
-            label=N_("the friction coefficient mu"),
-            kind="friction",
-            metavar="MU",
-            section="Body",
-        )
-    )
+    mu: float = field(metadata=friction(N_("Friction coefficient. [default: value of the body; else required]")))
     restitution: float = field(
         default=0.0,
         metadata=option(
