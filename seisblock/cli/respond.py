@@ -16,7 +16,7 @@ from seisblock.cli.console import info
 from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.sampling_options import pop_spreads, ranges_replaced, version_options
-from seisblock.cli.variants import check_variants, list_variants, variant_params, write_variants
+from seisblock.cli.variants import check_variants, describe_first, list_variants, variant_params, write_variants
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ParameterError
 from seisblock.models.respond.options import RespondOptions
@@ -106,7 +106,7 @@ def respond(
         values = variant_params(params, variant)
         choice = choose_free_standing({**values, "gal": output.gal})
         if not responses:
-            info("body: {says}", says=choice.description)
+            info("{line}", line=describe_first(choice.description, variants))
         options = RespondOptions(
             mu=choice.mu,
             mu_kinetic=choice.mu_kinetic,

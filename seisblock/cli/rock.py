@@ -19,7 +19,7 @@ from seisblock.cli.options import Source, output_options, peak_options, record_o
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import MUS, Count
-from seisblock.cli.variants import check_variants, list_variants, variant_params, write_variants
+from seisblock.cli.variants import check_variants, describe_first, list_variants, variant_params, write_variants
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ComponentError, ParameterError
 from seisblock.core.i18n import N_, gettext
@@ -143,7 +143,7 @@ def rock(
         friction = values["mu"]
         choice = choose_block({**values, "restitution": restitution, "gal": output.gal})
         if not responses:
-            info("body: {says}", says=choice.description)
+            info("{line}", line=describe_first(choice.description, variants))
         options = RockOptions(restitution=choice.restitution, linear=linear, vertical=vertical, gravity=gravity)
         if peaks is not None:
             _rock_under_suite(choice.block, peaks, options, seed, output)

@@ -11,7 +11,7 @@ from seisblock.cli.options import Source
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import OutputError, ParameterError
-from seisblock.core.i18n import N_
+from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.limits import MAX_VALUES, check_limit
 
 if TYPE_CHECKING:
@@ -40,6 +40,13 @@ def variant_params(params: Mapping[str, Any], variant: Mapping[str, float]) -> d
     """Return the parameters of one variant, with numbers instead of lists."""
     single = {name: params[name][0] for name in LISTS if params.get(name) is not None}
     return {**params, **single, **variant}
+
+
+def describe_first(description: str, variants: list[dict[str, float]]) -> Message:
+    """Return the line on the body; of several variants it describes the first."""
+    if len(variants) == 1:
+        return lazy_gettext("body: {says}", says=description)
+    return lazy_gettext("body, first of {count}: {says}", count=len(variants), says=description)
 
 
 def check_variants(source: Source, output: OutputOptions, variants: list[dict[str, float]]) -> None:

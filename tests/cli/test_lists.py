@@ -29,6 +29,7 @@ def test_respond_with_a_list_of_friction_equals_single_calls(tmp_path):
         for entry, second in zip(single["results"], document["results"][2 * index : 2 * index + 2], strict=True):
             assert "mu" not in entry
             assert entry == {key: value for key, value in second.items() if key != "mu"}
+    assert result.stderr.startswith("body, first of 2: block 0.45 m wide, 1.5 m high; mu 0.2 (as given)")
     assert figure.stat().st_size
     assert rows.read_bytes().startswith(b"\xef\xbb\xbf")
     text = list(csv.DictReader(rows.read_text(encoding="utf-8-sig").splitlines()))

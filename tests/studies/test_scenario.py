@@ -10,6 +10,7 @@ from scipy.optimize import linprog
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.body_name import TRANSLATED_NAMES
+from seisblock.bodies.friction import SURFACES
 from seisblock.bodies.kinds import KINDS, normalize_kind
 from seisblock.bodies.table import BodySpec, read_bodies, read_body_list
 from seisblock.bodies.toml import bundled_bodies
@@ -25,7 +26,7 @@ from seisblock.readers import read
 from seisblock.records import Motion, Preparation, Storey, motion_of, scale, scale_to_jma, synthetic_suite
 from seisblock.report.text.scenario import csv_columns, object_name
 from seisblock.report.text.scenario import tables as scenario_tables
-from seisblock.report.text.secure import measure_note, verdict
+from seisblock.report.text.secure import MATERIALS, measure_note, verdict
 from seisblock.studies.assessment import classify
 from seisblock.studies.fragility.run import run_fragility
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
@@ -467,6 +468,14 @@ def test_measure_note_gives_the_force_on_a_stop_at_the_foot():
     multiple = replace(restraint, unit="1", moment=0.5, foot_force=0.25)
     assert measure_note(multiple).endswith("also required, 0.250 times its weight: it slides in 40 %")
     assert "foot" not in measure_note(replace(restraint, foot_slip_probability=0.0, foot_force=None))
+
+
+def test_measure_note_translates_the_materials_of_each_pair():
+    measure = Measure("friction", 0.2, "1", 0.04, materials=("wood/stone", "teflon/steel"))
+    assert measure_note(measure) == "wood/stone, teflon/steel"
+    with use_locale("ja"):
+        assert measure_note(measure) == "木/石、テフロン/鋼"
+    assert {material for pair in SURFACES for material in pair.split("/")} == set(MATERIALS)
 
 
 def test_unresolved_target_is_one_that_no_overturning_in_all_runs_would_not_show():

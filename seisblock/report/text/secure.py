@@ -13,6 +13,9 @@ from seisblock.studies.scenario.secure import BASE_MASS, FRICTION, HEIGHT, INSET
 MAX_PAIRS = 3
 """Largest number of pairs of surfaces in a note."""
 
+MATERIALS = (N_("granite"), N_("wood"), N_("stone"), N_("rubber"), N_("concrete"), N_("metal"), N_("steel"), N_("teflon"))
+"""Materials of the pairs of surfaces, for translation."""
+
 LABELS = {
     WIDTH: N_("minimum base width"),
     HEIGHT: N_("maximum height"),
@@ -63,7 +66,7 @@ def measure_note(measure: Measure) -> str:
     if measure.displacement_m is not None and measure.displacement_m >= 0.01:
         notes.append(gettext("shifts by up to {shift:.0f} cm", shift=100.0 * measure.displacement_m))
     if measure.materials:
-        notes.append(join_list(measure.materials[:MAX_PAIRS]))
+        notes.append(join_list("/".join(map(gettext, pair.split("/"))) for pair in measure.materials[:MAX_PAIRS]))
     return join_clauses(notes)
 
 
