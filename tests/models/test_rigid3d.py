@@ -146,6 +146,21 @@ def test_solve_rigid3d_creates_no_energy_in_fast_spin_and_violent_shaking():
         assert outcome.created_j <= 1e-9 * body.mass * GRAVITY * size
 
 
+@pytest.mark.parametrize("width", [0.001, 0.003])
+def test_solve_rigid3d_creates_no_energy_with_a_needle(width):
+    """The moment about the axis is 1e-6 of the others: 2e-8 and 5e-10 where the matrix R J R' gave the angular momentum."""
+    body = ConvexBody.box(width, width, 0.6)
+    initial = {
+        "position": (0.0, 0.0, 0.15),
+        "quaternion": np.array([0.4378, 0.4678, -0.7126, -0.2858]),
+        "velocity": (1.0, -2.0, 0.5),
+        "spin": (5.0, -14.0, -18.0),
+    }
+    outcome = solve_rigid3d(body, still(3.0), mu=0.05, restitution=0.2, initial=initial, settle_s=1.0).outcome
+    assert outcome.impacts > 5
+    assert outcome.created_j <= (1e-9 if width == 0.001 else 1e-10) * body.mass * GRAVITY * 0.6
+
+
 def test_solve_rigid3d_conserves_energy_in_flight_to_round_off():
     """Sum of the gains of 4000 steps: 2e-11; 4e-10 with a linear solution that stops at the tolerance of contacts."""
     body = ConvexBody.box(2.0, 1.5, 1.0)

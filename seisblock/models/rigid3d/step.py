@@ -78,14 +78,27 @@ def rotation_matrix(y, rotation):
     rotation[8] = a * a - b * b - c * c + d * d
 
 
+@kernel(_t.void(BODY, SCRATCH))
+def _spatial_inertia(body, scratch):
+    """Write R J R' into `spatial`, with the rotation matrix R in `rotation`."""
+    r, j, s = scratch.rotation, body.inertia, scratch.spatial
+    for p in range(3):
+        a0 = r[3 * p] * j[0] + r[3 * p + 1] * j[3] + r[3 * p + 2] * j[6]
+        a1 = r[3 * p] * j[1] + r[3 * p + 1] * j[4] + r[3 * p + 2] * j[7]
+        a2 = r[3 * p] * j[2] + r[3 * p + 1] * j[5] + r[3 * p + 2] * j[8]
+        for q in range(3):
+            s[3 * p + q] = a0 * r[3 * q] + a1 * r[3 * q + 1] + a2 * r[3 * q + 2]
+
+
 @kernel(_t.void(VECTOR, _t.float64, BODY, SCRATCH))
 def list_near(y, margin, body, scratch):
-    """Write the rotation matrix of a state and the heights of all vertices above the ground; list those within a margin.
+    """Write rotation matrix, spatial inertia and heights of all vertices above the ground of a state; list those within a margin.
 
     Until a vertex has moved by the margin, the others cannot reach the ground.
     """
     # far vertices are not tested in every step, which counts for scans of thousands of vertices
     rotation_matrix(y, scratch.rotation)
+    _spatial_inertia(body, scratch)
     r, vertices, heights, level = scratch.rotation, body.vertices, scratch.heights, y[X + 2]
     r0, r1, r2, count = r[6], r[7], r[8], 0
     for i in range(heights.size):
@@ -100,8 +113,9 @@ def list_near(y, margin, body, scratch):
 
 @kernel(_t.void(VECTOR, BODY, SCRATCH))
 def update_heights(y, body, scratch):
-    """Write the rotation matrix of a state and the heights of the near vertices above the ground."""
+    """Write rotation matrix, spatial inertia and heights of the near vertices above the ground of a state."""
     rotation_matrix(y, scratch.rotation)
+    _spatial_inertia(body, scratch)
     r, vertices, heights, level = scratch.rotation, body.vertices, scratch.heights, y[X + 2]
     r0, r1, r2 = r[6], r[7], r[8]
     for k in range(scratch.counters[NEAR]):
@@ -121,18 +135,6 @@ def find_contacts(reach, scratch):
     return count
 
 
-@kernel(_t.void(BODY, SCRATCH))
-def _spatial_inertia(body, scratch):
-    """Write R J R' into `spatial`, with the rotation matrix R in `rotation`."""
-    r, j, s = scratch.rotation, body.inertia, scratch.spatial
-    for p in range(3):
-        a0 = r[3 * p] * j[0] + r[3 * p + 1] * j[3] + r[3 * p + 2] * j[6]
-        a1 = r[3 * p] * j[1] + r[3 * p + 1] * j[4] + r[3 * p + 2] * j[7]
-        a2 = r[3 * p] * j[2] + r[3 * p + 1] * j[5] + r[3 * p + 2] * j[8]
-        for q in range(3):
-            s[3 * p + q] = a0 * r[3 * q] + a1 * r[3 * q + 1] + a2 * r[3 * q + 2]
-
-
 @kernel(_t.float64(VECTOR, BODY))
 def mechanical_energy(y, body):
     """Return kinetic and potential energy relative to the ground, J."""
@@ -149,12 +151,11 @@ def mechanical_energy(y, body):
 def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
     """Step from a state into `trial` with the contacts in `ids`; return whether all iterations converged.
 
-    Rotation matrix and heights must be those of the state; `a2` includes gravity.
+    Rotation matrix, spatial inertia and heights must be those of the state; `a2` includes gravity.
     """
     c, r, s, left, gyro = body.constants, scratch.rotation, scratch.spatial, scratch.left, scratch.gyroscopic
     contacts, impulses, velocity, momentum = scratch.contacts, scratch.impulses, scratch.velocity, scratch.momentum
-    mass, trial = c[MASS], scratch.trial
-    _spatial_inertia(body, scratch)
+    mass, trial, j = c[MASS], scratch.trial, body.inertia
     # the state keeps the spin in the body's axes; the equations of a step are those of the ground's
     s0 = r[0] * y[W] + r[1] * y[W + 1] + r[2] * y[W + 2]
     s1 = r[3] * y[W] + r[4] * y[W + 1] + r[5] * y[W + 2]
@@ -165,9 +166,14 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
     momentum[2] = mass * (2.0 * y[V + 2] - h * a2)
     for i in range(3):
         velocity[i] = momentum[i] / (2.0 * mass)
-    velocity[3], velocity[4], velocity[5] = s0, s1, s2
+    # angular momentum
+    m0 = j[0] * y[W] + j[1] * y[W + 1] + j[2] * y[W + 2]
+    m1 = j[3] * y[W] + j[4] * y[W + 1] + j[5] * y[W + 2]
+    m2 = j[6] * y[W] + j[7] * y[W + 1] + j[8] * y[W + 2]
+    k0, k1, k2 = r[0] * m0 + r[1] * m1 + r[2] * m2, r[3] * m0 + r[4] * m1 + r[5] * m2, r[6] * m0 + r[7] * m1 + r[8] * m2
     # prediction from the last angular acceleration, for fewer passes
     w0, w1, w2 = s0 + 0.5 * h * y[ALPHA], s1 + 0.5 * h * y[ALPHA + 1], s2 + 0.5 * h * y[ALPHA + 2]
+    velocity[3], velocity[4], velocity[5] = w0, w1, w2
     # a start without impulses shares a common load evenly, see ``contact``
     for i in range(count):
         impulses[i, 0], impulses[i, 1], impulses[i, 2] = 0.0, 0.0, 0.0
@@ -179,9 +185,10 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
         left[0], left[1], left[2] = scale * (1.0 + e0 * e0), scale * (e0 * e1 - e2), scale * (e0 * e2 + e1)
         left[3], left[4], left[5] = scale * (e0 * e1 + e2), scale * (1.0 + e1 * e1), scale * (e1 * e2 - e0)
         left[6], left[7], left[8] = scale * (e0 * e2 - e1), scale * (e1 * e2 + e0), scale * (1.0 + e2 * e2)
-        l0 = s[0] * w0 + s[1] * w1 + s[2] * w2
-        l1 = s[3] * w0 + s[4] * w1 + s[5] * w2
-        l2 = s[6] * w0 + s[7] * w1 + s[8] * w2
+        # through the body's axes: the matrix R J R' has lost the small moment of a slender body to round-off
+        b0, b1, b2 = r[0] * w0 + r[3] * w1 + r[6] * w2, r[1] * w0 + r[4] * w1 + r[7] * w2, r[2] * w0 + r[5] * w1 + r[8] * w2
+        m0, m1, m2 = j[0] * b0 + j[1] * b1 + j[2] * b2, j[3] * b0 + j[4] * b1 + j[5] * b2, j[6] * b0 + j[7] * b1 + j[8] * b2
+        l0, l1, l2 = r[0] * m0 + r[1] * m1 + r[2] * m2, r[3] * m0 + r[4] * m1 + r[5] * m2, r[6] * m0 + r[7] * m1 + r[8] * m2
         # gyroscopic term h w x J w, linear about the last pass: 2 J + h ([w] J - [J w])
         for q in range(3):
             gyro[q] = 2.0 * s[q] + h * (w1 * s[6 + q] - w2 * s[3 + q])
@@ -193,14 +200,16 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
         gyro[5] += h * l0
         gyro[6] += h * l1
         gyro[7] -= h * l0
-        g0 = 2.0 * (s[0] * s0 + s[1] * s1 + s[2] * s2) + h * (w1 * l2 - w2 * l1)
-        g1 = 2.0 * (s[3] * s0 + s[4] * s1 + s[5] * s2) + h * (w2 * l0 - w0 * l2)
-        g2 = 2.0 * (s[6] * s0 + s[7] * s1 + s[8] * s2) + h * (w0 * l1 - w1 * l0)
+        # residual of the last pass: the linear system is for the change of the spin, which its round-off does not harm
+        g0 = 2.0 * (k0 - l0) - h * (w1 * l2 - w2 * l1)
+        g1 = 2.0 * (k1 - l1) - h * (w2 * l0 - w0 * l2)
+        g2 = 2.0 * (k2 - l2) - h * (w0 * l1 - w1 * l0)
         inertia = scratch.mean_inertia
         for p in range(3):
             for q in range(3):
                 inertia[3 * p + q] = left[3 * p] * gyro[q] + left[3 * p + 1] * gyro[3 + q] + left[3 * p + 2] * gyro[6 + q]
             momentum[3 + p] = left[3 * p] * g0 + left[3 * p + 1] * g1 + left[3 * p + 2] * g2
+            momentum[3 + p] += inertia[3 * p] * w0 + inertia[3 * p + 1] * w1 + inertia[3 * p + 2] * w2
         for k in range(count):
             i = scratch.ids[k]
             x, y_, z = body.vertices[0, i], body.vertices[1, i], body.vertices[2, i]
@@ -329,8 +338,21 @@ def _impact(y, count, restitution, holds, body, scratch):
 @kernel(_t.boolean(VECTOR, _t.int64, BODY, SCRATCH))
 def end_contacts(y, count, body, scratch):
     """Project the velocities of the contacts of a step at its end; return whether the solution converged."""
-    _spatial_inertia(body, scratch)
     return _impact(y, count, 0.0, True, body, scratch)
+
+
+@kernel(_t.boolean(VECTOR, _t.int64, BODY, SCRATCH))
+def _approaches(y, count, body, scratch):
+    """Return whether a vertex in `ids` approaches the ground by more than the tolerance of the contact velocities."""
+    r, limit = scratch.rotation, -CONTACT_TOLERANCE * body.constants[SPEED]
+    # vertical velocity v_z + (R W x R X)_z = v_z + (row of R) . (W x X)
+    for k in range(count):
+        i = scratch.ids[k]
+        x, y_, z = body.vertices[0, i], body.vertices[1, i], body.vertices[2, i]
+        turning = r[6] * (y[W + 1] * z - y[W + 2] * y_) + r[7] * (y[W + 2] * x - y[W] * z) + r[8] * (y[W] * y_ - y[W + 1] * x)
+        if y[V + 2] + turning < limit:
+            return True
+    return False
 
 
 @kernel(_t.boolean(VECTOR, _t.int64, _t.boolean, BODY, SCRATCH))
@@ -340,7 +362,8 @@ def resolve_impact(y, count, struck, body, scratch):
     The energetic condition decides where Newton's law with friction would create energy: the restitution is halved until it does not, and
     the plastic impact never does ([Moreau1988]_).
     """
-    _spatial_inertia(body, scratch)
+    if not _approaches(y, count, body, scratch):
+        return True
     restitution = body.constants[RESTITUTION] if struck else 0.0
     if restitution == 0.0:
         return _impact(y, count, 0.0, False, body, scratch)
