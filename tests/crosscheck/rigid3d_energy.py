@@ -38,7 +38,7 @@ class Run:
 
     @property
     def is_sound(self) -> bool:
-        """Whether the run ended without energy, penetration or an error."""
+        """True if the run ended without energy, penetration or an error."""
         return not self.error and self.created <= LIMIT and self.depth <= DEPTH
 
 
