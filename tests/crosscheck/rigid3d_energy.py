@@ -46,7 +46,7 @@ def random_body(rng: np.random.Generator) -> ConvexBody:
     """Return a box, a plate, a needle, a worn box, a cylinder, a polyhedron or an eccentric polyhedron."""
     kind = rng.integers(7)
     if kind < 3:
-        thin = 10.0 ** rng.uniform(-2.5, -1.0)
+        thin = 10.0 ** rng.uniform(-2.0, -0.5)
         sizes = rng.uniform(0.1, 1.0, 3) * ((1.0, 1.0, 1.0), (1.0, 1.0, thin), (thin, thin, 1.0))[kind]
         return ConvexBody.box(*sizes.tolist())
     if kind == 3:

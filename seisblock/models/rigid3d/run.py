@@ -65,6 +65,9 @@ MAX_IMPACTS = 64
 
 MAX_ROOT_STEPS = 60
 
+MIN_SHARE = 1e-3
+"""Shortest step that is tried where the solution of a step does not converge, a share of it."""
+
 NEAR_SHARE = 0.02
 """Height up to which vertices are followed while none has moved as far, a share of the size of the body."""
 
@@ -201,6 +204,15 @@ def _ground(motion, row, s, fraction):
     return motion[row, s] + fraction * (motion[row, s + 1] - motion[row, s])
 
 
+@kernel(_t.boolean(READ_ONLY_MATRIX, _t.float64, _t.int64, _t.float64, _t.float64, _t.int64, BODY, SCRATCH))
+def _try_step(motion, dt, s, t, size, count, body, scratch):
+    """Step from a time within interval `s` into `trial`; return whether the solution converged."""
+    # the record is linear between samples, so that the value at the middle is the mean over the step
+    fraction = (t + 0.5 * size) / dt
+    a0, a1, a2 = _ground(motion, 0, s, fraction), _ground(motion, 1, s, fraction), _ground(motion, 2, s, fraction)
+    return midpoint_step(scratch.state, size, a0, a1, a2 + body.constants[GRAVITY], count, body, scratch)
+
+
 @kernel(_t.boolean(READ_ONLY_MATRIX, _t.float64, _t.int64, _t.float64, BODY, SCRATCH))
 def _advance(motion, dt, s, start, body, scratch):
     """Advance the state from a time within interval `s` to its end; return whether the state is finite."""
@@ -225,12 +237,16 @@ def _advance(motion, dt, s, start, body, scratch):
         struck = False
         low, low_value, high, high_value = 0.0, 0.0, h, 0.0
         size = h
+        solved = _try_step(motion, dt, s, t, size, count, body, scratch)
+        # with much friction the solution can jump between sticking and slipping; shorter steps find one
+        while not solved and size > MIN_SHARE * h:
+            size *= 0.5
+            solved = _try_step(motion, dt, s, t, size, count, body, scratch)
+        shortened = size < h
+        high = size
         for attempt in range(MAX_ROOT_STEPS):
-            # the record is linear between samples, so that the value at the middle is the mean over the step
-            fraction = (t + 0.5 * size) / dt
-            a0, a1 = _ground(motion, 0, s, fraction), _ground(motion, 1, s, fraction)
-            a2 = _ground(motion, 2, s, fraction)
-            solved = midpoint_step(y, size, a0, a1, a2 + c[GRAVITY], count, body, scratch)
+            if attempt > 0:
+                solved = _try_step(motion, dt, s, t, size, count, body, scratch)
             if capped:
                 break
             if attempt == 0:
@@ -251,7 +267,7 @@ def _advance(motion, dt, s, start, body, scratch):
                     i = scratch.near[k]
                     if scratch.heights[i] > touching:
                         low_value = min(low_value, scratch.heights[i] - 0.25 * touching)
-            elif abs(value) <= 0.25 * touching:
+            elif abs(value) <= 0.25 * touching or attempt == MAX_ROOT_STEPS - 1:
                 break
             elif value > 0.0:
                 # Illinois: halve the value of an end that stays
@@ -266,13 +282,18 @@ def _advance(motion, dt, s, start, body, scratch):
             # Illinois' method slows down where the height is far from linear in the step
             if attempt > 20:
                 size = 0.5 * (low + high)
+            # the height jumps with the length of the step where a contact ceases to stick: end above the ground
+            if attempt == MAX_ROOT_STEPS - 2 and low > 0.0:
+                size = low
         ledger[PATH] += _path(scratch, body)
         # work of the inertia forces alone; gravity is in the potential energy
+        fraction = (t + 0.5 * size) / dt
+        a0, a1, a2 = _ground(motion, 0, s, fraction), _ground(motion, 1, s, fraction), _ground(motion, 2, s, fraction)
         work = -c[MASS] * (a0 * (trial[X] - y[X]) + a1 * (trial[X + 1] - y[X + 1]) + a2 * (trial[X + 2] - y[X + 2]))
         for i in range(STATE_SIZE):
             y[i] = trial[i]
         # exactly the end of the interval, without accumulated round-off
-        t = t + size if struck or size < dt - t else dt
+        t = t + size if struck or shortened or size < dt - t else dt
         update_heights(y, body, scratch)
         # the mean velocity of a contact vanishes, which leaves its end velocity opposite to that at the start
         if count > 0:
