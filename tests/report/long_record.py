@@ -31,6 +31,8 @@ from seisblock.core.registry import solver_names
 from seisblock.fragility import find_risk, read_hazard, run_fragility
 from seisblock.measures import measure, response_spectrum
 from seisblock.models.respond.options import RespondOptions
+from seisblock.models.rigid3d import plot as rigid3d_plot
+from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rock.options import RockOptions
 from seisblock.output import figures as shared
 from seisblock.output.figures import solver
@@ -73,7 +75,7 @@ from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.gravestone_criterion import CriterionStudy, GravestoneFit, Threshold
 from seisblock.studies.map.station_response import StationCemetery, StationResult
 from seisblock.studies.map.stations import StationReport, Stations
-from seisblock.studies.respond.azimuths import respond_directions
+from seisblock.studies.respond.azimuths import respond_directions, rigid3d_directions
 from seisblock.studies.respond.mode_map import mode_map as map_of_modes
 from seisblock.studies.rocking.azimuths import rock_directions
 from seisblock.studies.rocking.spectrum import default_sizes, default_slendernesses, rocking_spectrum, rocking_spectrum_all_azimuths
@@ -137,6 +139,8 @@ def response(model, component="NS"):
 def every_azimuth(model):
     if model == "rock":
         return rock_directions(Block(0.3, 0.9), record(), step_deg=15.0)
+    if model == "rigid3d":
+        return rigid3d_directions(Block(0.24, 0.72, 0.3), record(), Rigid3dOptions(mu=0.6), step_deg=15.0)
     return respond_directions(Block(0.45, 1.8), scale(record(), 0.7), options=RespondOptions(mu=0.3), step_deg=15.0)
 
 
@@ -323,6 +327,11 @@ OF_THE_RECORD = dict(model_figures()) | {
     ),
     "factors": (infer.factor_figure, lambda _: infer.factor_figure(factors())),
     "rock, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("rock")], [every_azimuth("rock")])),
+    "rigid3d, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("rigid3d")], [every_azimuth("rigid3d")])),
+    "rigid3d, falls": (
+        rigid3d_plot.figure,
+        lambda gal: rigid3d_plot.figure([response("rigid3d")], gal=gal, falls=[rigid3d_plot.Falls(50, (3.0, 5.0, 20.0, 181.0))]),
+    ),
     "respond, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("respond")], [every_azimuth("respond")])),
     "a record": (input_panels.record_figure, lambda _: input_panels.record_figure(record())),
     "a motion": (input_panels.motion_figure, lambda _: input_panels.motion_figure(motion())),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from seisblock import Block, ConvexBody, Motion, solve_rigid3d
+from seisblock import Block, ConvexBody, Motion, motion_of, read, solve_rigid3d
 from seisblock.bodies import load_scan
 from seisblock.bodies.convex import convex_body
 from seisblock.bodies.edge_wear import EdgeWear
@@ -18,6 +18,7 @@ from seisblock.bodies.scan.body import ScannedBody
 from seisblock.cli import main
 from seisblock.core.errors import KindError
 from seisblock.models.respond.options import RespondOptions
+from seisblock.models.rigid3d.describe import describe
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.report.text.assessment import assessment_lines
 from seisblock.studies.assessment import THREE_DIMENSIONS, assess_direction
@@ -168,3 +169,13 @@ def test_convex_body_of_a_worn_scan_stands_on_its_worn_base():
     assert solve_rigid3d(worn, stronger, mu=1.0).outcome.moved
     boulder = load_scan("boulder").with_wear(EdgeWear(length_m=0.01))
     assert solve_rigid3d(boulder, Motion(np.zeros((3, 10)), 0.01), mu=0.5).outcome.moved is False
+
+
+def test_text_of_a_sliding_body_has_no_round_off():
+    """A plate that slides has a tilt and a twist of 1e-15 degrees: both are printed as 0."""
+    plate = ConvexBody.box(0.5, 0.5, 0.02)
+    motion = motion_of(read("synthetic_jma.csv"), "NS")
+    response = solve_rigid3d(plate, motion, mu=0.3)
+    assert 0.0 < abs(response.outcome.twist_deg) < 1e-9
+    assert describe(response).endswith("twist 0 deg.")
+    assert "largest tilt 0 deg" in describe(response)

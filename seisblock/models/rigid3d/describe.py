@@ -20,6 +20,9 @@ from seisblock.output.units_display import Unit, format_length, length_cell, len
 
 HEADINGS = tuple(map(N_, ("+x", "fall (s)", "azimuth (deg)", "tilt (deg)", "twist (deg)", "x ({unit})", "y ({unit})", "rest (s)")))
 
+MIN_ANGLE_DEG = 1e-6
+"""Angle below which a body that only slides has neither tilt nor twist, degrees: round-off."""
+
 
 def outcome_table(responses: Sequence[Response[Rigid3dOutcome]], *, gal: bool = True) -> Any:
     """Return the table of fall, tilt, twist and place, a row per direction of +x."""
@@ -46,10 +49,21 @@ def verdict(response: Response[Rigid3dOutcome], *, gal: bool = True) -> str:
         return lazy_gettext("remains at rest")
     return lazy_gettext(
         "does not overturn: largest tilt {tilt:.2g} deg, residual displacement {length}, twist {twist:.2g} deg",
-        tilt=math.degrees(outcome.max_tilt_rad),
+        tilt=clean_angle(math.degrees(outcome.max_tilt_rad)),
         length=format_length(math.hypot(*outcome.final_displacement_m), gal=gal),
-        twist=outcome.twist_deg,
+        twist=clean_angle(outcome.twist_deg),
     )
+
+
+def clean_angle(angle_deg: float) -> float:
+    """Return an angle, degrees; round-off counts as 0.
+
+    Examples
+    --------
+    >>> clean_angle(-0.5), clean_angle(-1e-17)
+    (-0.5, 0.0)
+    """
+    return angle_deg if abs(angle_deg) >= MIN_ANGLE_DEG else 0.0
 
 
 def contact_summary(body: ConvexBody, *, gal: bool = True) -> Message:
@@ -75,8 +89,8 @@ def _row(response: Response[Rigid3dOutcome], unit: Unit) -> list[str]:
     values = (
         outcome.overturning_time_s,
         outcome.fell_azimuth_deg,
-        math.degrees(outcome.max_tilt_rad),
-        outcome.twist_deg,
+        clean_angle(math.degrees(outcome.max_tilt_rad)),
+        clean_angle(outcome.twist_deg),
     )
     place = [length_cell(value, unit) for value in outcome.final_displacement_m]
     return [response.motion.name or "x", *map(format_number, values), *place, format_number(outcome.end_s if outcome.settled else None)]

@@ -1,12 +1,13 @@
-"""Figure of a body in three dimensions: ground acceleration, displacement, tilt and twist."""
+"""Figure of a body in three dimensions: ground acceleration, displacement, tilt and twist; rose of the directions of fall."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from seisblock.bodies.convex import convex_body
 from seisblock.core.i18n import format_share, gettext
@@ -17,6 +18,7 @@ from seisblock.models.rigid3d.outcome import Rigid3dOutcome
 from seisblock.output.figures import style
 from seisblock.output.figures.curves import draw_curve
 from seisblock.output.figures.heading import motions_heading, panel_labels
+from seisblock.output.figures.rose import draw_fall_rose
 from seisblock.output.figures.time_histories import Interval, history_columns, strong_motion_interval
 from seisblock.output.units_display import acceleration_unit, length_unit
 
@@ -27,7 +29,25 @@ AFTER_FALL_S = 2.5
 """Time after overturning that is shown, s."""
 
 
-def figure(responses: Sequence[Response[Rigid3dOutcome]], *, gal: bool = True, probabilities: Sequence[float | None] = ()) -> Figure:
+HISTORY_HEIGHT, ROSE_HEIGHT = 9.0, 3.4
+"""Heights of the time histories and of a row of roses, in."""
+
+
+@dataclass(frozen=True)
+class Falls:
+    """Samples of a body: number of runs, and the azimuth of each fall, degrees clockwise from north, or from +x where that is unknown."""
+
+    runs: int
+    azimuths_deg: Sequence[float]
+
+
+def figure(
+    responses: Sequence[Response[Rigid3dOutcome]],
+    *,
+    gal: bool = True,
+    probabilities: Sequence[float | None] = (),
+    falls: Sequence[Falls | None] = (),
+) -> Figure:
     """Return the figure, one column per direction: ground acceleration, displacement of the centre of gravity, tilt, twist.
 
     Parameters
@@ -36,12 +56,24 @@ def figure(responses: Sequence[Response[Rigid3dOutcome]], *, gal: bool = True, p
     gal : bool
     probabilities : sequence of float or None
         Overturning probability of each response, where known.
+    falls : sequence of Falls or None
+        Samples of each response, where known; those that fall are drawn as a rose below.
     """
     motions = [response.motion for response in responses]
-    fig = style.titled_figure(motions_heading(motions), width=3.0 + 5.0 * len(responses), height=9.0)
+    has_falls = any(item is not None and item.azimuths_deg for item in falls)
+    height = HISTORY_HEIGHT + ROSE_HEIGHT * has_falls
+    fig = style.titled_figure(motions_heading(motions), width=3.0 + 5.0 * len(responses), height=height)
+    histories: Figure | SubFigure = fig
+    if has_falls:
+        histories, roses = fig.subfigures(2, 1, height_ratios=(HISTORY_HEIGHT, ROSE_HEIGHT))
+        for place, (response, item) in enumerate(zip(responses, falls, strict=True), start=1):
+            if item is not None and item.azimuths_deg:
+                panel = roses.add_subplot(1, len(responses), place, projection="polar")
+                origin = "+x" if response.motion.azimuth_deg is None else ""
+                draw_fall_rose(panel, item.azimuths_deg, item.runs, origin=origin)
     spans = [motion_interval(response) for response in responses]
     disp_unit = length_unit((response.outcome.max_displacement_m for response in responses), gal=gal)
-    columns = history_columns(fig, motions, spans, 4, heights=(1.3, 1.0, 1.0, 1.0))
+    columns = history_columns(histories, motions, spans, 4, heights=(1.3, 1.0, 1.0, 1.0))
     chances = list(probabilities) or [None] * len(responses)
     for panels, name, response, chance in zip(columns, panel_labels(motions), responses, chances, strict=True):
         lines = [f"{name}  {_object_text(response, gal=gal)}", f"{verdict(response, gal=gal)}"]

@@ -37,7 +37,9 @@ MAIN_CHANNELS = ("rotation", "tilt", "displacement")
 """Channel of a small multiple: the first of these that is not zero, else the first of the model."""
 
 
-def response_figure(responses: Sequence[Response[Any]], *, gal: bool = True, probabilities: Sequence[float | None] = ()) -> Figure:
+def response_figure(
+    responses: Sequence[Response[Any]], *, gal: bool = True, probabilities: Sequence[float | None] = (), **samples: Any
+) -> Figure:
     """Return the figure of responses of one model: the one that it registers, else that of its channels; many as small multiples.
 
     Parameters
@@ -46,12 +48,14 @@ def response_figure(responses: Sequence[Response[Any]], *, gal: bool = True, pro
     gal : bool
     probabilities : sequence of float or None
         Overturning probability of each response, where known.
+    samples : keyword arguments
+        What else the figure of the model shows of the samples.
     """
     if len(responses) > MAX_COLUMNS:
         return small_multiples(responses, gal=gal, probabilities=probabilities)
     draw: Callable[..., Figure] = get_solver(responses[0].model).presenter("plot") or figure
     known = {"probabilities": probabilities} if any(p is not None for p in probabilities) else {}
-    fig = draw(responses, gal=gal, **known)
+    fig = draw(responses, gal=gal, **known, **samples)
     if isinstance(fig, style.StyledFigure):
         fig.set_footer([text.plain for text in shaking_lines(responses, gal=gal, static=responses[0].model == "uplift")])
     return fig

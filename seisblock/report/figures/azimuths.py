@@ -14,8 +14,8 @@ from seisblock.core.results import Response
 from seisblock.output.directions import direction_label
 from seisblock.output.figures import style
 from seisblock.output.figures.heading import record_label, records_heading
+from seisblock.output.figures.rose import draw_fall_rose, style_rose
 from seisblock.output.units_display import length_unit
-from seisblock.report.figures.body import style_rose
 from seisblock.report.figures.spectrum import OVERTURNED_COLOUR, ROCKED_COLOUR
 
 Directions = Sequence[Any]
@@ -26,6 +26,8 @@ RIM = 1.0
 
 def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions], *, gal: bool = True) -> Figure:
     """Return the figure: per record a polar panel of peak tilt over alpha and, with sliding, one of maximum displacement.
+
+    In three dimensions a rose of the directions of fall, over the azimuths of the body's +x, stands beside them.
 
     Parameters
     ----------
@@ -46,11 +48,12 @@ def _build_figure(
     responses: Sequence[Response[Any]], directions: Sequence[Directions], *, slides: bool, narrow: bool, gal: bool
 ) -> style.StyledFigure:
     """Return the figure, panels of a record side by side, or stacked if `narrow`."""
-    across, down = 1 + slides, len(responses)
+    falls = [[azimuth for result in group if (azimuth := getattr(result, "fell_azimuth_deg", None)) is not None] for group in directions]
+    across, down = 1 + slides + any(falls), len(responses)
     rows, columns = (across * down, 1) if narrow else (down, across)
     title = records_heading([response.motion.record for response in responses], [gettext("all azimuths")])
     fig = style.titled_figure(title, width=0.6 + 4.4 * columns, height=1.0 + 4.2 * rows)
-    for row, (response, results) in enumerate(zip(responses, directions, strict=True)):
+    for row, (response, results, fall_azimuths) in enumerate(zip(responses, directions, falls, strict=True)):
         record = response.motion.record
         prefix = f"{record_label(record)}: " if record is not None and down > 1 else ""
         tilt = fig.add_subplot(rows, columns, across * row + 1, projection="polar")
@@ -67,6 +70,8 @@ def _build_figure(
             displacements = [result.max_displacement_m / unit.size for result in results]
             _bars(path, results, displacements)
             style_rose(path, prefix + gettext("maximum displacement ({unit})", unit=unit.name), max(*displacements, 1e-3 / unit.size))
+        if fall_azimuths:
+            draw_fall_rose(fig.add_subplot(rows, columns, across * (row + 1), projection="polar"), fall_azimuths, len(results))
     handles = [Patch(facecolor=ROCKED_COLOUR, edgecolor="0.4", linewidth=0.5, label=gettext("did not overturn"))]
     half_circle = all(map(_is_half_circle, directions))
     if any(result.overturned for results in directions for result in results):

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator
 
 from seisblock.bodies.scan.azimuths import scan_azimuths
 from seisblock.bodies.scan.body import ScannedBody
@@ -17,12 +14,10 @@ from seisblock.bodies.scan.scan import Scan
 from seisblock.core.i18n import gettext
 from seisblock.core.typing import FloatArray
 from seisblock.output.figures import style
+from seisblock.output.figures.rose import style_rose
 
 STEP_DEG = 1.0
 """Step of azimuth, degrees."""
-
-ROUND = 4
-"""Rings of a polar panel, at most."""
 
 OUTLINE, BASE, CONTACT_AREA = "0.94", "#9cc3dc", "#2f5f8c"
 """Colours of outline, base polygon and support polygon, distinct in greyscale."""
@@ -52,22 +47,6 @@ def _build_figure(scan: Scan, *, narrow: bool) -> style.StyledFigure:
         style_rose(panel, text, max(values))
         panel.plot(np.append(azimuths, azimuths[0]), [*values, values[0]], color=style.ACCENT, linewidth=1.3)
     return fig
-
-
-def style_rose(panel: Any, title: str, largest: float) -> None:
-    """Style a polar panel: north up, azimuth clockwise, rings up to the largest value."""
-    panel.set_theta_zero_location("N")
-    panel.set_theta_direction(-1)
-    panel.set_xticks(np.radians(np.arange(0, 360, 45)), [f"{azimuth}°" for azimuth in range(0, 360, 45)])
-    panel.set_rlabel_position(22.5)
-    panel.set_yticks([tick for tick in MaxNLocator(ROUND).tick_values(0.0, largest) if 0.0 < tick <= largest])
-    panel.set_ylim(0.0, 1.1 * largest)
-    panel.grid(True, color="0.88", linewidth=0.6)
-    panel.spines["polar"].set_color("0.7")
-    panel.tick_params(labelsize=style.TICK_LABEL_SIZE - 1)
-    for label in panel.get_yticklabels():
-        label.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
-    style.set_panel_title(panel, title)
 
 
 def _plan(panel: Axes, scan: Scan) -> None:

@@ -12,7 +12,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core.i18n import N_, format_share, gettext, lazy_gettext
 from seisblock.core.results import Response
-from seisblock.models.rigid3d.describe import describe, outcome_table
+from seisblock.models.rigid3d.describe import clean_angle, describe, outcome_table
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome
 from seisblock.output.describe_wear import sampled_edges
 from seisblock.output.text.shaking import shaking_lines
@@ -90,8 +90,8 @@ def probability_sentence(probability: SpatialProbability, *, gal: bool = True) -
             falls=sentence,
             middle=format_length(place["q50"], unit),
             far=format_length(place["q95"], unit),
-            twist=twist["q50"],
-            most=twist["q95"],
+            twist=clean_angle(twist["q50"]),
+            most=clean_angle(twist["q95"]),
         )
     left_out = left_out_versions(probability.no_answer, probability.runs)
     return with_notes(gettext("{result}.", result=sentence), [] if left_out is None else [gettext("{note}.", note=left_out)])
