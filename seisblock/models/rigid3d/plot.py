@@ -65,7 +65,7 @@ def figure(
     fig = style.titled_figure(motions_heading(motions), width=3.0 + 5.0 * len(responses), height=height)
     histories: Figure | SubFigure = fig
     if has_falls:
-        histories, roses = fig.subfigures(2, 1, height_ratios=(HISTORY_HEIGHT, ROSE_HEIGHT))
+        histories, roses = fig.subfigures(2, 1, squeeze=False, height_ratios=(HISTORY_HEIGHT, ROSE_HEIGHT))[:, 0]
         for place, (response, item) in enumerate(zip(responses, falls, strict=True), start=1):
             if item is not None and item.azimuths_deg:
                 panel = roses.add_subplot(1, len(responses), place, projection="polar")
