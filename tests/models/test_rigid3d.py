@@ -94,6 +94,28 @@ def test_solve_rigid3d_mirrors_motions(body, signs, rotated):
         np.testing.assert_allclose(image[name], sign * plain[name], atol=1e-6)
 
 
+@pytest.mark.parametrize(("x", "y"), [(-1, 1), (1, -1), (-1, -1)])
+def test_solve_rigid3d_mirrors_an_asymmetric_body_with_its_motion(x, y):
+    """A mirrored polyhedron under the mirrored motion moves as the mirror image, to the last digit."""
+    rng = np.random.default_rng(2)
+    base, top = rng.uniform(-0.2, 0.2, (6, 3)) * (1.0, 1.0, 0.0), rng.uniform((-0.25, -0.25, 0.4), (0.25, 0.25, 0.8), (9, 3))
+    body, signs = ConvexBody.polyhedron(np.vstack([base, top])), np.diag([x, y, 1.0])
+    mirrored = ConvexBody(
+        "image",
+        body.mass,
+        tuple(signs @ body.centre),
+        tuple(map(tuple, signs @ np.array(body.inertia) @ signs)),
+        tuple(body.points @ signs),
+    )
+    rows = noise(2, 5.0)
+    plain = solve_rigid3d(body, Motion(rows, 0.01), mu=0.5)
+    image = solve_rigid3d(mirrored, Motion(signs @ rows, 0.01), mu=0.5)
+    assert plain.outcome.impacts > 5
+    for name, sign in zip(("x", "y", "z"), (x, y, 1), strict=True):
+        np.testing.assert_allclose(image[name], sign * plain[name], atol=1e-12)
+    assert image.outcome.twist_deg == pytest.approx(x * y * plain.outcome.twist_deg, abs=1e-9)
+
+
 def random_body(rng):
     """Return a box, a worn box, a cylinder or a polyhedron."""
     kind = rng.integers(4)
@@ -274,6 +296,8 @@ def test_load_scan_keeps_the_hull_of_the_bundled_boulder():
         ({"position": (0, 0, 0.1)}, "below the ground"),
         ({"quaternion": (0, 0, 0, 0)}, "length 1"),
         ({"velocity": (0, 0, math.nan)}, "finite"),
+        ({"spin": (1e6, 0, 0)}, "at most 10000 rad/s"),
+        ({"velocity": (0, 0, 1e6)}, "at most 10000 rad/s"),
     ],
 )
 def test_solve_rigid3d_refuses_an_impossible_initial_state(initial, message):

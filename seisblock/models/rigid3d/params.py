@@ -21,6 +21,9 @@ GAP_SHARE, REST_SHARE = 1e-9, 1e-10
 BASE_SHARE = 2e-3
 """Height above the lowest vertex up to which a vertex belongs to the base, a share of the size."""
 
+MAX_INITIAL_RATE = 1e4
+"""Largest initial spin plus speed over size, rad/s: a run takes a step per 0.01 rad."""
+
 INITIAL_KEYS = {"position": 3, "quaternion": 4, "velocity": 3, "spin": 3}
 
 
@@ -102,6 +105,13 @@ def initial_state(body: RigidHull, initial: Mapping[str, Sequence[float]] | None
     if depth > 1e-6 * size:
         raise ParameterError("`initial`: the lowest point of the body lies {depth:.4g} m below the ground; raise its position", depth=depth)
     state[X + 2] = max(state[X + 2], lowest)
+    rate = float(np.linalg.norm(values.get("spin", np.zeros(3))) + np.linalg.norm(values.get("velocity", np.zeros(3))) / size)
+    if rate > MAX_INITIAL_RATE:
+        raise ParameterError(
+            "`initial`: spin plus velocity over the size of the body must be at most {limit:g} rad/s, found {rate:.4g}",
+            limit=MAX_INITIAL_RATE,
+            rate=rate,
+        )
     state[V : V + 3] = values.get("velocity", 0.0)
     state[W : W + 3] = rotation.T @ values.get("spin", np.zeros(3))
 
