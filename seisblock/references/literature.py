@@ -90,6 +90,13 @@ LITERATURE = (
         doi="10.1016/0045-7825(91)90022-X",
     ),
     Reference(
+        "PfrommerHalmPosa2020",
+        "Pfrommer, S., Halm, M., and Posa, M.",
+        2020,
+        "ContactNets: learning discontinuous contact dynamics with smooth, implicit representations",
+        "Conference on Robot Learning, Proceedings of Machine Learning Research, 155, 2279-2291",
+    ),
+    Reference(
         "SimoWong1991",
         "Simo, J. C., and Wong, K. K.",
         1991,

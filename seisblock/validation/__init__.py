@@ -24,6 +24,7 @@ PAPERS: tuple[str, ...] = (
     "stack_round",
     "fema_p58",
     "jma_furniture",
+    "cube_tosses",
 )
 """Modules of this package that export CASES."""
 
