@@ -55,7 +55,7 @@ class FactorInterval:
 
 @dataclass(frozen=True)
 class TwistRun:
-    """One run at one factor; lengths in m, the weight is 1 for perfect agreement."""
+    """One run at one factor; lengths in m, the weight is 1 for perfect agreement, up to 2 where both are near 0."""
 
     scale: float
     twist_deg: float
@@ -179,13 +179,11 @@ def infer_twist(
     sample = []
     for scale, outcome in results:
         distance = math.hypot(*outcome.final_displacement_m)
-        # the error of a reading grows with the twist, but has a smallest value
-        misfit = (abs(outcome.twist_deg) - observed) / max(TWIST_ERROR * observed, MIN_TWIST_ERROR_DEG)
-        squared = misfit * misfit
-        if displacement_m is not None:
-            squared += ((distance - displacement_m) / max(DISPLACEMENT_ERROR * displacement_m, MIN_DISPLACEMENT_ERROR_M)) ** 2
         # the object still stands: runs that overturn it are excluded, however well they twist
-        weight = 0.0 if outcome.overturned or not outcome.moved else math.exp(-0.5 * squared)
+        weight = 0.0 if outcome.overturned or not outcome.moved else _likelihood(abs(outcome.twist_deg), observed)
+        if displacement_m is not None:
+            misfit = (distance - displacement_m) / max(DISPLACEMENT_ERROR * displacement_m, MIN_DISPLACEMENT_ERROR_M)
+            weight *= math.exp(-0.5 * misfit * misfit)
         sample.append(TwistRun(scale, outcome.twist_deg, distance, outcome.overturned, weight))
     weights = np.array([run.weight for run in sample])
     effective = float(weights.sum() ** 2 / max(float(np.square(weights).sum()), 1e-300))
@@ -206,6 +204,13 @@ def infer_twist(
         max((abs(run.twist_deg) for run in sample if not run.overturned), default=0.0),
         tuple(sample),
     )
+
+
+def _likelihood(twist: float, observed: float) -> float:
+    """Return the likelihood of an observed amount of twist, degrees: a folded normal distribution, 1 for perfect agreement far from 0."""
+    # the error of a reading grows with the twist, but has a smallest value; readings to either side have the same amount
+    error = max(TWIST_ERROR * observed, MIN_TWIST_ERROR_DEG)
+    return math.exp(-0.5 * ((twist - observed) / error) ** 2) + math.exp(-0.5 * ((twist + observed) / error) ** 2)
 
 
 def _range(pilot: Sequence[tuple[float, Rigid3dOutcome]], limit: float) -> tuple[float, float]:
