@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from seisblock.cli.command import Command, argument, option
-from seisblock.cli.console import info, print_tables, warning
+from seisblock.cli.console import info, print_result, print_tables, warning
 from seisblock.cli.options import check_callback
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core import checks
@@ -110,6 +110,7 @@ def _split(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
     section="Output",
     help="Folder of the files. [default: named after the event, or after station and time]",
 )
+@option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout, SI units.")
 @option("--quiet", is_flag=True, section="Output", help="Print only errors on stderr.")
 def fetch(
     event: str | None,
@@ -124,6 +125,7 @@ def fetch(
     event_center: str,
     retries: int,
     directory: Path | None,
+    as_json: bool,
     quiet: bool,
 ) -> None:
     """Download of records from an FDSN data center into a folder that map and RECORD accept directly.
@@ -156,7 +158,13 @@ def fetch(
     with quiet_output(quiet):
         with progress("stations") as advance:
             downloads = study.fetch(request, target, retries=retries, progress=advance)
-        print_tables(text_output.tables(downloads, target))
+        if as_json:
+            from seisblock.output.json.encode import to_json
+            from seisblock.report.json.fetch import document
+
+            print_result(to_json(document(request, downloads, target)))
+        else:
+            print_tables(text_output.tables(downloads, target))
         failed = [download for download in downloads if download.status == study.FAILED]
         if failed:
             warning(

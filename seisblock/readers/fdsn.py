@@ -189,7 +189,7 @@ class DataCenter:
         content = self._request(
             "dataselect",
             lazy_gettext("waveforms of {code}", code=sensor.name),
-            lambda client: _file_of(client.get_waveforms, **_codes(sensor), starttime=_utc(start), endtime=_utc(end)),
+            lambda client: _whole_blocks(_file_of(client.get_waveforms, **_codes(sensor), starttime=_utc(start), endtime=_utc(end))),
         )
         if not is_mseed(content):
             message = "{name} returned no miniSEED for {code}: try again later"
@@ -217,6 +217,17 @@ def _file_of(ask: Callable[..., Any], **query: Any) -> bytes:
     buffer = io.BytesIO()
     ask(filename=buffer, **query)
     return buffer.getvalue()
+
+
+def _whole_blocks(content: bytes) -> bytes:
+    """Return miniSEED as received; raise IncompleteRead if it ends inside a block, as after a broken connection."""
+    from obspy.io.mseed.util import get_record_information
+
+    if is_mseed(content):
+        excess = get_record_information(io.BytesIO(content))["excess_bytes"]
+        if excess:
+            raise http.client.IncompleteRead(content)
+    return content
 
 
 def _preferred_sensor(network: str, site: Any, patterns: Sequence[str]) -> Sensor | None:

@@ -132,7 +132,8 @@ def read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[s
             # merge joins contiguous pieces; gaps become masked samples, which are refused later
             stream = obspy.read(str(path), format=waveform).merge()
     except Exception as error:  # ObsPy's readers raise bare Exceptions
-        reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
+        # the temporary copy is no file of the user
+        reason = " ".join(str(error).replace(str(path), name).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
         raise RecordFormatError("{name}: ObsPy cannot read the file as {format} ({why})", name=name, format=waveform, why=reason) from error
     if not stream:
         raise RecordFormatError("{name}: no samples found by ObsPy", name=name)
@@ -141,7 +142,10 @@ def read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[s
 
 def obspy_flags(warning_texts: Sequence[str]) -> list[QCFlag]:
     """Return flags for the warnings of ObsPy (integrity checks, incomplete last blocks)."""
-    return [qc_flag("ObsPy warning: {warning}", "header", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH]) for text in warning_texts]
+    texts = [" ".join(text.split())[:MAX_QUOTED_LENGTH] for text in warning_texts]
+    # one for each kind: ObsPy warns of every unreadable block
+    kinds = {re.sub(r"\d+", "", text): text for text in reversed(texts)}
+    return [qc_flag("ObsPy warning: {warning}", "header", warning=text) for text in reversed(kinds.values())]
 
 
 def trace_to_record(
@@ -212,7 +216,11 @@ def trace_to_record(
 def _check_samples(name: str, trace: Any) -> None:
     """Raise for gaps, text and traces without an interval."""
     if np.ma.is_masked(trace.data):
-        raise RecordFormatError("{name}: channel {channel} has gaps; extract a window without gaps", name=name, channel=trace.id)
+        raise RecordFormatError(
+            "{name}: channel {channel} has gaps, or overlaps with different samples; extract a window without them",
+            name=name,
+            channel=trace.id,
+        )
     if trace.data.dtype.kind not in "iuf":
         raise RecordFormatError("{name}: channel {channel} contains text, not samples", name=name, channel=trace.id)
     if trace.data.size < 2 or not trace.stats.delta > 0:

@@ -11,6 +11,7 @@ from seisblock import read
 from seisblock.cli import main
 from seisblock.readers import fdsn, read_all
 from seisblock.records.site import epicentral_distance_km, get_earthquake
+from tests.readers import data_center as data_center_module
 from tests.readers.data_center import EVENT_ID, data_center, event
 
 TIME = "2024-01-01T07:10:20"
@@ -82,6 +83,34 @@ def test_fetch_resumes_where_it_was_interrupted(fetch, center, tmp_path):
     assert center.requests == {"station": 2, "dataselect": 1}
     answer = fetch(EVENT_ID, "-o", tmp_path / "a", "--duration", "60")
     assert answer.exit_code == 3 and "records of another request (fetch.json): choose another folder" in answer.stderr
+
+
+def test_fetch_json_lists_each_station_with_status_and_peak(fetch, center, tmp_path):
+    """New, present on the second run, without data; nothing but the document on stdout."""
+    center.empty = {"MID"}
+    for status in ("new", "present"):
+        answer = fetch(EVENT_ID, "-o", tmp_path / "a", "--json")
+        document = json.loads(answer.stdout)
+        assert document["schema"] == "seisblock/fetch/1" and document["parameters"]["event"] == EVENT_ID
+        near, mid = document["results"]
+        assert (near["station"], near["location"], near["status"], near["failure"]) == ("NEAR", "00", status, "")
+        assert near["epicentral_distance_km"] == pytest.approx(9.1, abs=0.1)
+        assert max(near["pga_m_s2"].values()) == pytest.approx(0.13, abs=0.01) and list(near["pga_m_s2"]) == ["NS", "EW", "UD"]
+        assert (mid["status"], mid["file"], mid["pga_m_s2"]) == ("no data", None, {}) and "has no data" in mid["failure"]
+        assert document["record"]["station"] == "NEAR"
+
+
+@pytest.mark.parametrize("content", ["", "000001D XX", "<html>proxy</html>", "cut"])
+def test_fetch_keeps_no_incomplete_answer(content, fetch, center, tmp_path):
+    """No data, another thing than miniSEED, miniSEED that ends inside a block: the next run completes the folder."""
+    whole = data_center_module.answer_of(
+        "dataselect", {"station": "NEAR", "location": "00", "channel": "HNN", "starttime": TIME, "endtime": "2024-01-01T07:10:40"}
+    )
+    center.faults["dataselect:NEAR"] = [204 if content == "" else whole[:-1000] if content == "cut" else content.encode()]
+    answer = fetch("--station", "XX.NEAR", "--time", TIME, "-o", tmp_path / "a", "--retries", "0")
+    assert answer.exit_code == 3 and not list((tmp_path / "a").glob("*.mseed"))
+    answer = fetch("--station", "XX.NEAR", "--time", TIME, "-o", tmp_path / "a")
+    assert answer.exit_code == 0 and len(list((tmp_path / "a").glob("*.mseed"))) == 1
 
 
 @pytest.mark.parametrize(

@@ -82,7 +82,7 @@ class _Handler(BaseHTTPRequestHandler):
             if isinstance(fault, int):
                 self._send(fault, b"fault on demand")
             else:
-                content = fault if fault is not None else _answer(service, query)
+                content = fault if fault is not None else answer_of(service, query)
                 self._send(200 if content and query.get("station") not in self.server.empty else 204, content)
 
     def _send(self, status: int, content: bytes = b"") -> None:
@@ -101,7 +101,7 @@ def _wadl(service: str, url: str) -> str:
     return f'<?xml version="1.0"?>{head}<resources base="{url}/fdsnws/{service}/1/">{resource}</resources></application>'
 
 
-def _answer(service: str, query: dict[str, str]) -> bytes:
+def answer_of(service: str, query: dict[str, str]) -> bytes:
     buffer = io.BytesIO()
     if service == "event":
         if query.get("eventid") == EVENT_ID:

@@ -355,6 +355,38 @@ def test_from_obspy_rejects_other_objects_and_gaps():
         Record.from_obspy(obspy.Stream([full.slice(endtime=START + 5), full.slice(START + 6)]))
 
 
+@pytest.mark.parametrize(("step", "change", "is_read"), [(-10, 0, True), (-10, 50, False), (0, 0, True), (10, 0, False)])
+def test_pieces_of_a_channel_are_joined_without_gaps_and_contradictions(step, change, is_read, tmp_path):
+    """Overlaps of equal samples are joined; gaps, and overlaps of different ones, are rejected."""
+    whole = trace("HNN")
+    first, second = whole.copy(), whole.copy()
+    first.data, second.data = whole.data[:1500], whole.data[1500 + step :].copy()
+    second.stats.starttime = START + (1500 + step) * whole.stats.delta
+    second.data[:10] += change
+    inventory(channel("HNN")).write(str(tmp_path / "s.xml"), "STATIONXML")
+    path = tmp_path / "x.mseed"
+    obspy.Stream([second, first]).write(str(path), "MSEED")
+    if is_read:
+        np.testing.assert_allclose(read(path).components[0].acceleration, counts("N") / COUNTS_PER_UNIT, rtol=1e-14)
+    else:
+        with pytest.raises(RecordFormatError, match="has gaps, or overlaps with different samples"):
+            read(path)
+
+
+def test_damaged_miniseed_has_few_flags_and_names_the_file(tmp_path):
+    """A lost sector gives one flag for each kind of warning; errors name the file, not its temporary copy."""
+    path = tmp_path / "x.mseed"
+    inventory(channel("HNN")).write(str(tmp_path / "s.xml"), "STATIONXML")
+    trace("HNN").write(str(path), "MSEED", reclen=4096)
+    data = path.read_bytes()
+    path.write_bytes(data[:1024] + data[1536:])
+    assert 1 <= len(read(path).doubts) <= 5
+    path.write_bytes(data[:700])
+    with pytest.raises(RecordFormatError) as error:
+        read(path)
+    assert str(error.value).count("x.mseed") >= 1 and "seisblock-" not in str(error.value)
+
+
 def _quakeml(path, *origins):
     from obspy.core.event import Catalog, Event, Magnitude, Origin
 

@@ -2,6 +2,7 @@
 
 import json
 import re
+from contextlib import nullcontext
 from pathlib import Path
 
 import jsonschema
@@ -15,9 +16,10 @@ from seisblock.output.json.encode import to_builtins
 from seisblock.output.json.units import split_unit
 from seisblock.references import REFERENCES, cited_commands, command_papers
 from seisblock.report.json.registry import document_commands, document_schemas, json_schema
+from tests.readers.data_center import data_center
 from tests.report.document_keys import lines, missing_lines, stored_lines
 
-WITHOUT_DOCUMENT = {"app", "completion", "schema", "fetch"}
+WITHOUT_DOCUMENT = {"app", "completion", "schema"}
 """Commands that serve a page, or write a script, a schema or a folder of records."""
 
 EVERY = (
@@ -76,6 +78,7 @@ EVERY = (
     "cite jump",
     "cite",
     "samples",
+    "fetch --station XX.NEAR --time 2024-01-01T07:10:20 --data-center CENTER -o FOLDER/fetched",
 )
 """Command lines that answer with every kind of document, and with the keys that may be missing."""
 
@@ -111,7 +114,9 @@ def documents(tmp_path_factory):
 
     def run(line):
         if line not in expected:
-            answer = CliRunner().invoke(main, [*line.replace("FOLDER", folder).split(), "--json"])
+            with data_center() if "CENTER" in line else nullcontext() as center:
+                words = line.replace("FOLDER", folder).replace("CENTER", center.url if center else "").split()
+                answer = CliRunner().invoke(main, [*words, "--json"])
             assert answer.exit_code == 0, answer.stderr
             expected[line] = json.loads(answer.stdout)
         return expected[line]
@@ -137,7 +142,7 @@ def test_citations_of_document_are_listed_by_cite(line, documents):
     command, cited = line.split()[0], documents(line)["citations"]
     assert len(set(cited)) == len(cited)
     assert set(cited) <= set(command_papers(command) if command in cited_commands() else REFERENCES)
-    assert bool(cited) is (command not in {"samples"})
+    assert bool(cited) is (command not in {"samples", "fetch"})
 
 
 def test_every_document_kind_has_schema_and_example(documents):

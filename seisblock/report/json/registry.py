@@ -21,7 +21,7 @@ from seisblock.output.json.units import split_unit
 
 STUDY_DOCUMENTS = (
     "measure", "criteria", "spectrum", "overturn-rate", "infer", "body", "batch", "map", "fragility", "risk", "fit", "paper", "scenario",
-    "secure", "report", "validate", "cite", "samples",
+    "secure", "report", "validate", "cite", "samples", "fetch",
 )  # fmt: skip
 """Commands with a document, apart from those of the solvers."""
 

@@ -1,0 +1,111 @@
+"""JSON document of ``seisblock fetch``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+from msgspec import Struct
+
+from seisblock.measures import peak_acceleration
+from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.studies.fetch import FetchRequest, StationDownload
+
+
+class FetchParameters(Struct, frozen=True, kw_only=True):
+    """Parameters of the command.
+
+    Parameters
+    ----------
+    event : str or None
+        Event id, or a QuakeML file.
+    time : str or None
+        Time of interest, UTC.
+    stations : list of str
+        Network and station codes; empty: all within the radius.
+    radius_km : float
+        Largest epicentral distance of stations that are not named.
+    before_s, duration_s : float
+        Beginning of the window before the origin time, and its length.
+    channels : list of str
+        Channel codes in the order of preference.
+    location : str or None
+        Location code.
+    data_center, event_center : str
+    directory : str
+        Folder of the files.
+    """
+
+    event: str | None
+    time: str | None
+    stations: list[str]
+    radius_km: float
+    before_s: float
+    duration_s: float
+    channels: list[str]
+    location: str | None
+    data_center: str
+    event_center: str
+    directory: str
+
+
+class FetchResult(Result, frozen=True, kw_only=True):
+    """One station, nearest first.
+
+    Parameters
+    ----------
+    network, station, location : str
+    channels : list of str
+    latitude_deg, longitude_deg : float
+        Of the station, degrees north and east.
+    epicentral_distance_km : float or None
+    status : str
+        ``new``, ``present``, ``no data``, ``not usable`` or ``failed``.
+    file : str or None
+        The miniSEED file, null if there is none.
+    pga_m_s2 : dict
+        PGA of each component; empty without a record.
+    failure : str
+        Reason of a missing record; empty if there is one.
+    """
+
+    network: str
+    station: str
+    location: str
+    channels: list[str]
+    latitude_deg: float
+    longitude_deg: float
+    epicentral_distance_km: float | None
+    status: str
+    file: str | None
+    pga_m_s2: dict[str, float]
+    failure: str
+
+
+FETCH = DocumentSchema("fetch", FetchParameters, FetchResult)
+
+
+def document(request: FetchRequest, downloads: Sequence[StationDownload], directory: Path) -> Document:
+    """Return the document of a download; records are those of the stations that have one."""
+    values = {key: list(value) if isinstance(value, tuple) else value for key, value in asdict(request).items()}
+    parameters = FetchParameters(**values, directory=str(directory))
+    return FETCH.document(parameters, ((download.record, _result(download, directory)) for download in downloads))
+
+
+def _result(download: StationDownload, directory: Path) -> FetchResult:
+    sensor, record = download.sensor, download.record
+    path = directory / f"{sensor.name}.mseed"
+    return FetchResult(
+        network=sensor.network,
+        station=sensor.station,
+        location=sensor.location,
+        channels=list(sensor.channels),
+        latitude_deg=sensor.latitude_deg,
+        longitude_deg=sensor.longitude_deg,
+        epicentral_distance_km=download.distance_km,
+        status=download.status,
+        file=str(path) if path.exists() else None,
+        pga_m_s2={} if record is None else {c.code: float(peak_acceleration(c.acceleration)[0]) for c in record.components},
+        failure="" if download.failure is None else str(download.failure.message),
+    )
