@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from seisblock.core.typing import FloatArray, IntArray
@@ -22,7 +23,8 @@ SMOOTHNESS_RATIO = 0.15
 PERIODIC_SHARE = 0.5
 """Share of repeated windows that occur at least three times beyond which a motion is periodic."""
 
-_BASE = np.uint64(0x9E3779B97F4A7C15)
+_BASE, _MIXER = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9)
+_CHUNK = 2**14
 
 
 class Repetition(NamedTuple):
@@ -61,50 +63,77 @@ def find_repetitions(acceleration: FloatArray) -> list[Repetition]:
 def _find_in_block(a: FloatArray) -> list[Repetition]:
     if a.size < 2 * WINDOW:
         return []
-    # + 0.0 turns -0.0 into 0.0
-    bits = (a + 0.0).view(np.uint64)
-    hashes = np.zeros(a.size - WINDOW + 1, dtype=np.uint64)
-    with np.errstate(over="ignore"):
-        for offset in range(WINDOW):
-            hashes *= _BASE
-            hashes += bits[offset : offset + hashes.size] >> np.uint64(7)
-            hashes ^= bits[offset : offset + hashes.size] << np.uint64(11)
-    # stable sorting keeps windows with one hash in order of time
-    order = np.argsort(hashes, kind="stable")
-    ordered = hashes[order]
-    same = np.flatnonzero(ordered[1:] == ordered[:-1])
-    if not same.size:
+    hashes = _hash_windows(a)
+    ordered = np.sort(hashes)
+    repeated = ordered[1:][ordered[1:] == ordered[:-1]]
+    if not repeated.size:
         return []
+    # only windows that occur several times are kept in order of time, which takes longer than sorting
+    values = np.unique(repeated)
+    members = np.flatnonzero(values[np.searchsorted(values, hashes).clip(max=values.size - 1)] == hashes)
+    order = members[np.argsort(hashes[members], kind="stable")]
+    same = np.flatnonzero(hashes[order[1:]] == hashes[order[:-1]])
     # occurrences of one hash are adjacent and in order of time
     starts, seconds = order[same], order[same + 1]
     keep = _is_informative(a, starts)
     starts, seconds = starts[keep], seconds[keep]
-    if not starts.size or _is_periodic(hashes, starts):
+    if not starts.size or _is_periodic(ordered, hashes[starts]):
         return []
     by_time = np.argsort(seconds, kind="stable")
     return _merge_windows(a, starts[by_time], seconds[by_time])
 
 
-def _is_informative(a: FloatArray, starts: IntArray) -> IntArray:
-    """Return the indices of the windows whose samples do not repeat by chance or by smoothness."""
-    indices = []
-    for index, start in enumerate(starts):
-        window = a[start : start + WINDOW]
-        steps = np.diff(window)
-        # steps of whole multiples of a resolution differ by rounding only
-        rounded_steps = np.unique(np.round(steps / max(float(np.abs(steps).max()), 1e-300), 9))
-        if np.unique(window).size < MIN_VALUES or rounded_steps.size < MIN_STEPS:
-            continue
-        if np.median(np.abs(np.diff(window, 3))) < SMOOTHNESS_RATIO * np.median(np.abs(steps)):
-            continue
-        indices.append(index)
-    return np.array(indices, dtype=np.int64)
+def _hash_windows(a: FloatArray) -> NDArray[np.uint64]:
+    """Return a hash of each window of samples, (n - WINDOW + 1,)."""
+    with np.errstate(over="ignore"):
+        # + 0.0 turns -0.0 into 0.0; the multiplications spread the bits of numbers with few digits
+        hashes = (a + 0.0).view(np.uint64) * _BASE
+        hashes ^= hashes >> np.uint64(29)
+        hashes *= _MIXER
+        # polynomial in _BASE of windows of 2, 4, 8, ... samples, from those of half the length
+        by_length = {1: hashes}
+        length, power = 1, _BASE
+        while 2 * length <= WINDOW:
+            hashes = by_length[length]
+            by_length[2 * length] = hashes[:-length] * power + hashes[length:]
+            length, power = 2 * length, power * power
+        result, total = by_length[length], length
+        while total < WINDOW:
+            length = max(size for size in by_length if size <= WINDOW - total)
+            part = by_length[length][total:]
+            result = result[: part.size] * np.uint64(pow(int(_BASE), length, 2**64)) + part
+            total += length
+    return result[: a.size - WINDOW + 1]
 
 
-def _is_periodic(hashes: NDArray[np.uint64], starts: IntArray) -> bool:
-    """Return whether most repeated windows occur at least three times."""
-    _, inverse, counts = np.unique(hashes, return_inverse=True, return_counts=True)
-    return bool(np.mean(counts[inverse[starts]] > 2) > PERIODIC_SHARE)
+def _is_informative(a: FloatArray, starts: IntArray) -> NDArray[np.bool_]:
+    """Return whether the samples of each window repeat neither by chance nor by smoothness, (m,)."""
+    windows = sliding_window_view(a, WINDOW)
+    parts = [_is_informative_window(windows[starts[i : i + _CHUNK]]) for i in range(0, starts.size, _CHUNK)]
+    return np.concatenate(parts)
+
+
+def _is_informative_window(windows: FloatArray) -> NDArray[np.bool_]:
+    steps = np.diff(windows, axis=1)
+    size = np.abs(steps)
+    # steps of whole multiples of a resolution differ by rounding only
+    rounded_steps = np.round(steps / np.maximum(size.max(axis=1, keepdims=True), 1e-300), 9)
+    is_varied = (_count_unique(windows) >= MIN_VALUES) & (_count_unique(rounded_steps) >= MIN_STEPS)
+    third = np.abs(np.diff(windows, 3, axis=1))
+    is_smooth: NDArray[np.bool_] = np.median(third, axis=1) < SMOOTHNESS_RATIO * np.median(size, axis=1)
+    return is_varied & ~is_smooth
+
+
+def _count_unique(rows: FloatArray) -> IntArray:
+    """Return the number of different values in each row."""
+    ordered = np.sort(rows, axis=1)
+    return 1 + np.count_nonzero(ordered[:, 1:] != ordered[:, :-1], axis=1)
+
+
+def _is_periodic(ordered: NDArray[np.uint64], repeated: NDArray[np.uint64]) -> bool:
+    """Return whether most repeated windows occur at least three times among the sorted hashes."""
+    counts = np.searchsorted(ordered, repeated, "right") - np.searchsorted(ordered, repeated, "left")
+    return bool(np.mean(counts > 2) > PERIODIC_SHARE)
 
 
 def _merge_windows(a: FloatArray, starts: IntArray, seconds: IntArray) -> list[Repetition]:

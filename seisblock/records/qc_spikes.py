@@ -27,8 +27,9 @@ SPIKE_ASYMMETRY = 0.5
 
 _MARGIN = NEIGHBOUR_STEPS + EXCLUDED_STEPS
 
-BLOCK = 2**20
-"""Samples checked at a time, here and for repetitions, so that a day-long record needs no temporary arrays of its size."""
+BLOCK, PIECE = 2**20, 2**16
+"""Samples checked at a time, for repetitions and here, so that a day-long record needs no temporary arrays of its size; a piece stays in
+the cache of the processor."""
 
 
 def find_spikes_and_jumps(acceleration: FloatArray) -> tuple[IntArray, IntArray]:
@@ -53,13 +54,13 @@ def find_spikes_and_jumps(acceleration: FloatArray) -> tuple[IntArray, IntArray]
     in high frequencies can hide both.
     """
     spikes, jumps = _find_end_spikes(acceleration), []
-    for start in range(0, acceleration.size, BLOCK):
+    for start in range(0, acceleration.size, PIECE):
         offset = max(start - 2 * _MARGIN, 0)
-        piece = acceleration[offset : start + BLOCK + 2 * _MARGIN]
+        piece = acceleration[offset : start + PIECE + 2 * _MARGIN]
         if piece.size < 2 * _MARGIN + 5:
             continue
         # candidates near the overlap are found twice; each block reports its own samples only
-        block = range(start - offset, min(start + BLOCK, acceleration.size) - offset)
+        block = range(start - offset, min(start + PIECE, acceleration.size) - offset)
         step = np.diff(piece)
         lone = {s for s in _find_spikes(step) if s in block}
         spikes += [s + offset for s in lone]
@@ -147,26 +148,39 @@ def find_flipped_samples(acceleration: FloatArray) -> IntArray:
     deviations in the ten samples on each side. Single samples only: neighbours must have their signs.
     """
     indices: list[int] = []
-    for start in range(0, acceleration.size, BLOCK):
+    for start in range(0, acceleration.size, PIECE):
         offset = max(start - 2 * _MARGIN, 0)
-        piece = acceleration[offset : start + BLOCK + 2 * _MARGIN]
+        piece = acceleration[offset : start + PIECE + 2 * _MARGIN]
         if piece.size < 2 * _MARGIN + 5:
             continue
-        middle = piece[2:-2]
-        expected = (4.0 * (piece[1:-3] + piece[3:-1]) - piece[:-4] - piece[4:]) / 6.0
-        residual, flipped_residual = np.abs(middle - expected), np.abs(middle + expected)
+        # a lost minus is a positive sample between negative ones, and rare
+        is_negative = piece < 0.0
+        k = np.flatnonzero((piece[2:-2] > 0.0) & is_negative[:-4] & is_negative[1:-3] & is_negative[3:-1] & is_negative[4:])
+        expected = _cubic_midpoint(*(piece[k + i] for i in (0, 1, 3, 4)))
+        residual, flipped_residual = np.abs(piece[k + 2] - expected), np.abs(piece[k + 2] + expected)
         # prefilter: a sample of size x with the wrong sign deviates by 2 x
-        # a lost minus is a positive sample between negative ones
-        is_between = (middle > 0.0) & (np.maximum(np.maximum(piece[1:-3], piece[3:-1]), np.maximum(piece[:-4], piece[4:])) < 0.0)
-        candidates = np.flatnonzero(is_between & (residual > MIN_SURPRISE) & (flipped_residual < 0.2 * residual))
-        for i in candidates.tolist():
-            background = np.concatenate(
-                (residual[max(i - _MARGIN, 0) : max(i - EXCLUDED_STEPS, 0)], residual[i + EXCLUDED_STEPS + 1 : i + _MARGIN + 1])
-            )
-            usual = float(_background(background[None, :])[0]) if background.size else np.inf
-            if residual[i] > FLIP_RATIO * usual and flipped_residual[i] < FLIP_RESIDUAL * usual and start <= offset + i + 2 < start + BLOCK:
+        for i in k[(residual > MIN_SURPRISE) & (flipped_residual < 0.2 * residual)].tolist():
+            usual = _usual_residual(piece, i)
+            x = piece[i : i + 5]
+            expected_value = _cubic_midpoint(x[0], x[1], x[3], x[4])
+            is_flipped = abs(x[2] - expected_value) > FLIP_RATIO * usual and abs(x[2] + expected_value) < FLIP_RESIDUAL * usual
+            if is_flipped and start <= offset + i + 2 < start + PIECE:
                 indices.append(offset + i + 2)
     return np.array(indices, dtype=np.int64)
+
+
+def _cubic_midpoint(x0: FloatArray, x1: FloatArray, x3: FloatArray, x4: FloatArray) -> FloatArray:
+    """Return the value of the cubic through two samples on each side."""
+    return (4.0 * (x1 + x3) - x0 - x4) / 6.0
+
+
+def _usual_residual(piece: FloatArray, i: int) -> float:
+    """Return the median deviation from the cubic of the samples around sample ``i + 2``, infinity if there are none."""
+    first = max(i - _MARGIN, 0)
+    x = piece[first : i + _MARGIN + 5]
+    residual = np.abs(x[2:-2] - _cubic_midpoint(x[:-4], x[1:-3], x[3:-1], x[4:]))
+    background = np.concatenate((residual[: max(i - first - EXCLUDED_STEPS, 0)], residual[i - first + EXCLUDED_STEPS + 1 :]))
+    return float(_background(background[None, :])[0]) if background.size else np.inf
 
 
 MIN_CUSPS, MIN_CURVATURE, CUSP_RATIO, CUSP_SPACING = 5, 0.02, 4.0, 6.0
@@ -200,8 +214,8 @@ def find_rectified_samples(acceleration: FloatArray) -> list[RectifiedSamples]:
     cusps: list[int] = []
     curvatures: list[float] = []
     crossings = 0
-    for start in range(0, acceleration.size, BLOCK):
-        piece = acceleration[start : start + BLOCK + 3]
+    for start in range(0, acceleration.size, PIECE):
+        piece = acceleration[start : start + PIECE + 3]
         if piece.size < 4:
             continue
         crossings += int(np.count_nonzero(np.signbit(piece[1:-2]) != np.signbit(piece[:-3])))

@@ -35,6 +35,7 @@ def lower_long_limits(monkeypatch):
         "records.fft_filter.LONG_TRANSFORM",
         "measures.spectra.LONG_TRANSFORM",
         "records.qc_spikes.BLOCK",
+        "records.qc_spikes.PIECE",
         "readers.source.LARGE_FILE_BYTES",
     ):
         monkeypatch.setattr(f"seisblock.{size}", 2**18)
@@ -121,7 +122,8 @@ def test_memory_per_sample_of_a_table(tmp_path, monkeypatch):
     """A plain table with its times: four columns, and nothing of the text, which stays in the file."""
     for name, value in {"source.LARGE_FILE_BYTES": 2**14, "lines.CHUNK_LINES": 2**8, "table.parse.CHUNK_SIZE": 2**12}.items():
         monkeypatch.setattr(f"seisblock.readers.{name}", value)
-    monkeypatch.setattr("seisblock.records.qc_spikes.BLOCK", 2**12)
+    for name in ("BLOCK", "PIECE"):
+        monkeypatch.setattr(f"seisblock.records.qc_spikes.{name}", 2**12)
 
     def written(samples):
         path = tmp_path / f"{samples}.csv"

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
+import msgspec
 from msgspec import Struct
 
 from seisblock.measures import peak_acceleration
@@ -88,8 +89,7 @@ FETCH = DocumentSchema("fetch", FetchParameters, FetchResult)
 
 def document(request: FetchRequest, downloads: Sequence[StationDownload], directory: Path) -> Document:
     """Return the document of a download; records are those of the stations that have one."""
-    values = {key: list(value) if isinstance(value, tuple) else value for key, value in asdict(request).items()}
-    parameters = FetchParameters(**values, directory=str(directory))
+    parameters = msgspec.convert({**asdict(request), "directory": str(directory)}, FetchParameters)
     return FETCH.document(parameters, ((download.record, _result(download, directory)) for download in downloads))
 
 
