@@ -298,7 +298,8 @@ def _count_at_least(values: IntArray, limits: IntArray) -> IntArray:
 def _resolution(a: FloatArray) -> float:
     """Return the smallest difference of two values among the samples around the peak."""
     # around the peak, where all digits of the resolution are in use
-    middle = int(a.argmax())
+    # not argmax, which copies read-only arrays
+    middle = int(np.flatnonzero(a == a.max())[0])
     around = a[max(middle - _RESOLUTION_SAMPLES, 0) : middle + _RESOLUTION_SAMPLES]
     smallest = float(np.diff(np.unique(around)).min(initial=np.inf))
     # digits may be printed below the resolution of the instrument: its steps are the most frequent ones

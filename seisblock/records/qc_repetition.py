@@ -87,23 +87,24 @@ def _hash_windows(a: FloatArray) -> NDArray[np.uint64]:
     """Return a hash of each window of samples, (n - WINDOW + 1,)."""
     with np.errstate(over="ignore"):
         # + 0.0 turns -0.0 into 0.0; the multiplications spread the bits of numbers with few digits
-        hashes = (a + 0.0).view(np.uint64) * _BASE
+        hashes = (a + 0.0).view(np.uint64)
+        hashes *= _BASE
         hashes ^= hashes >> np.uint64(29)
         hashes *= _MIXER
-        # polynomial in _BASE of windows of 2, 4, 8, ... samples, from those of half the length
-        by_length = {1: hashes}
-        length, power = 1, _BASE
-        while 2 * length <= WINDOW:
-            hashes = by_length[length]
-            by_length[2 * length] = hashes[:-length] * power + hashes[length:]
-            length, power = 2 * length, power * power
-        result, total = by_length[length], length
-        while total < WINDOW:
-            length = max(size for size in by_length if size <= WINDOW - total)
-            part = by_length[length][total:]
-            result = result[: part.size] * np.uint64(pow(int(_BASE), length, 2**64)) + part
-            total += length
-    return result[: a.size - WINDOW + 1]
+        # polynomial in _BASE of 1, 2, 4, ... samples, each from two halves; those whose lengths add up to WINDOW are joined
+        result, length, total, power = hashes[:0], 1, 0, _BASE
+        while length <= WINDOW:
+            if WINDOW & length:
+                result = hashes if total == 0 else hashes[:-total] * _power(total) + result[length:]
+                total += length
+            doubled = hashes[:-length] * power
+            doubled += hashes[length:]
+            hashes, length, power = doubled, 2 * length, power * power
+    return result
+
+
+def _power(exponent: int) -> np.uint64:
+    return np.uint64(pow(int(_BASE), exponent, 2**64))
 
 
 def _is_informative(a: FloatArray, starts: IntArray) -> NDArray[np.bool_]:

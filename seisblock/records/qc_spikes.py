@@ -239,8 +239,9 @@ def find_rectified_samples(acceleration: FloatArray) -> list[RectifiedSamples]:
             continue
         if i + 1 - first >= MIN_CUSPS:
             # about an offset, samples that cross their mean may touch zero only
-            elsewhere = np.concatenate((acceleration[: cusps[first]], acceleration[cusp:]))
-            if CUSP_RATIO * abs(float(elsewhere.mean())) < float(np.median(curvatures[first : i + 1])):
+            inside = acceleration[cusps[first] : cusp]
+            mean = (float(acceleration.sum()) - float(inside.sum())) / (acceleration.size - inside.size)
+            if CUSP_RATIO * abs(mean) < float(np.median(curvatures[first : i + 1])):
                 results.append(RectifiedSamples(cusps[first], cusp, i + 1 - first))
         first = i + 1
     return results
