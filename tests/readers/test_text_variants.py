@@ -2,27 +2,14 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
 
 from seisblock.readers import read
 from tests.fuzz.formats import FORMATS
+from tests.readers.format_trials import BINARY, VARIANTS
 
-TEXTS = [kind for kind in FORMATS if kind not in ("sac", "mseed", "xlsx", "tar", "tar.gz", "zip")]
-
-VARIANTS = {
-    "CR LF": lambda data: re.sub(rb"\r?\n", b"\r\n", data),
-    "CR": lambda data: re.sub(rb"\r?\n", b"\r", data),
-    "byte order mark": lambda data: b"\xef\xbb\xbf" + data.removeprefix(b"\xef\xbb\xbf"),
-    "UTF-16": lambda data: data.removeprefix(b"\xef\xbb\xbf").decode().encode("utf-16"),
-    "DOS end of file": lambda data: data + b"\x1a",
-    "blank lines": lambda data: data + b"\n\n\n",
-    "no line end": lambda data: data.rstrip(b"\r\n"),
-    "blanks at line ends": lambda data: re.sub(rb"(\r?\n)", rb"  \1", data),
-    "no blanks at line ends": lambda data: re.sub(rb"[ \t]+(\r?\n)", rb"\1", data),
-}
+TEXTS = [kind for kind in FORMATS if kind not in BINARY]
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
