@@ -35,6 +35,9 @@ FIRST_PAUSE_S = 1.0
 _TRANSIENT_STATUS = frozenset({429, 500, 502, 503, 504})
 """HTTP status codes of a server that is busy or down for a while."""
 
+_TOO_LARGE = 413
+"""HTTP status code of a request for too much data."""
+
 _STATUS = re.compile(r"HTTP (?:Status )?code: (\d{3})")
 
 KM_PER_DEGREE = 111.195
@@ -118,6 +121,9 @@ class DataCenter:
                 raise RecordNotFoundError("{name} has no data: {what}", name=self.name, what=what) from error
             if status in (401, 403):
                 raise RecordError("{name} restricts the access to {what}", name=self.name, what=what) from error
+            if status == _TOO_LARGE:
+                message = "{name} refuses so much data at once: {what}; shorten --duration, or reduce --within or --channel"
+                raise RecordError(message, name=self.name, what=what) from error
             message = "{name} returned no {what} ({why}): try again later"
             raise RecordError(message, name=self.name, what=what, why=_reason(error)) from error
 
