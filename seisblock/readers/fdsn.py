@@ -122,7 +122,7 @@ class DataCenter:
             if status in (401, 403):
                 raise RecordError("{name} restricts the access to {what}", name=self.name, what=what) from error
             if status == _TOO_LARGE:
-                message = "{name} refuses so much data at once: {what}; shorten --duration, or reduce --within or --channel"
+                message = "{name} refuses so much data at once: {what}; request a shorter time window, a smaller radius or fewer channels"
                 raise RecordError(message, name=self.name, what=what) from error
             message = "{name} returned no {what} ({why}): try again later"
             raise RecordError(message, name=self.name, what=what, why=_reason(error)) from error
