@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+import unicodedata
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, replace
 from functools import cache
@@ -12,6 +13,7 @@ from typing import Any
 
 from seisblock.bodies.friction import SURFACES, surface
 from seisblock.bodies.kinds import KINDS
+from seisblock.bodies.scan.mesh import SUFFIXES
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.options import OptionField, option_fields, plain_help
@@ -46,11 +48,19 @@ UNKNOWN_FRICTION = 0.4
 SCENARIO_TABLE = "object.csv"
 """Table of an object given by sizes, for a scenario."""
 
+RECORD_FIELDS = {"station": "--station", "units": "--units", "dt": "--dt"}
+"""Fields of a record's form with their options."""
+
+RECORD_UNITS = ("gal", "m/s2", "g")
+
 COVERED = ("mu", "initial", "further_points", "sensitivity")
 """Fields of the options that the form shows elsewhere or not at all."""
 
 FLOOR_PERIOD_S = 0.5
 """Period of a building for which none is given, s."""
+
+SCAN_UNITS, SCAN_AXES = ("m", "cm", "mm", "in", "ft"), ("z", "y", "x", "-z", "-y", "-x")
+"""Units and upward axes of a scan, of which a mesh file says nothing; the first of each is the default of the command."""
 
 _NUMBER = re.compile(r"[-+]?\d*\.?\d+(?:[eE][-+]?\d+)?")
 
@@ -142,8 +152,44 @@ def length_text(text: str) -> str:
     >>> length_text("45"), length_text(" 1.8 m"), length_text("8sun")
     ('45cm', '1.8 m', '8sun')
     """
-    text = text.strip().replace("\N{IDEOGRAPHIC FULL STOP}", ".")
+    text = plain_text(text)
     return f"{text}cm" if _NUMBER.fullmatch(text) else text
+
+
+def plain_text(text: str) -> str:
+    """Return what was typed without blanks around it, and with half-width letters and digits.
+
+    Examples
+    --------
+    >>> plain_text(" ０．３"), plain_text("ｓｉｎｅ：３００ｇａｌ＠１．５Ｈｚ"), plain_text("0。5")
+    ('0.3', 'sine:300gal@1.5Hz', '0.5')
+    """
+    return unicodedata.normalize("NFKC", text).replace("\N{IDEOGRAPHIC FULL STOP}", ".").strip()
+
+
+def _scan_file(form: Mapping[str, str], files: tuple[str, ...]) -> str | None:
+    """Return the scan of an object; None where a body's file was uploaded with it, or another object was chosen."""
+    if form.get("object", "").strip() != FILE or any(_suffix(name) == ".toml" for name in files):
+        return None
+    return next((name for name in files if _suffix(name) in SUFFIXES), None)
+
+
+def _suffix(name: str) -> str:
+    return Path(name).suffix.lower()
+
+
+def _scan_body(scan: str) -> str:
+    return f"{Path(scan).stem}.toml"
+
+
+def scan_arguments(form: Mapping[str, str], files: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the command that makes a body of an uploaded scan; empty for other objects."""
+    scan = _scan_file(form, files)
+    if scan is None:
+        return ()
+    unit, axis = (form.get(key, "").strip() or choices[0] for key, choices in (("scan-unit", SCAN_UNITS), ("scan-up", SCAN_AXES)))
+    options = (*(("--unit", unit) if unit != SCAN_UNITS[0] else ()), *(("--up", axis) if axis != SCAN_AXES[0] else ()))
+    return ("body", scan, *options, "--out", _scan_body(scan))
 
 
 def body_arguments(form: Mapping[str, str], files: tuple[str, ...] = ()) -> list[str]:
@@ -162,7 +208,9 @@ def body_arguments(form: Mapping[str, str], files: tuple[str, ...] = ()) -> list
     if choice == FILE:
         if not files:
             raise ParameterError("no file of an object: choose one, or another object")
-        return ["--block", files[0], *friction]
+        scan = _scan_file(form, files)
+        body_file = next((name for name in files if _suffix(name) == ".toml"), files[0])
+        return ["--block", body_file if scan is None else _scan_body(scan), *friction]
     body = find_body(choice)
     if body is not None and (width, height) == size_texts(body):
         return ["--block", body.name, *(friction if surface or mu != number_text(body.mu) else [])]
@@ -212,7 +260,11 @@ def report_arguments(line: tuple[str, ...]) -> tuple[str, ...]:
     records, options = split_arguments(line[1:])
     body = options.get("--block") or f"{options['--width']}x{options['--height']}"
     pair = surface(options["--surface"]) if "--surface" in options else None
-    body_flags = {flag: options[flag] for flag in ("--kind", "--mu", "--mu-kinetic", "--floor", "--gravity") if flag in options}
+    body_flags = {
+        flag: options[flag]
+        for flag in (*RECORD_FIELDS.values(), "--kind", "--mu", "--mu-kinetic", "--floor", "--gravity")
+        if flag in options
+    }
     if pair is not None:
         body_flags = {"--mu": f"{pair.mu:g}", "--mu-kinetic": f"{pair.mu_kinetic:g}", **body_flags}
     return ("report", *records, "--body", body, *(text for item in body_flags.items() for text in item))
@@ -230,6 +282,12 @@ def split_arguments(arguments: tuple[str, ...]) -> tuple[tuple[str, ...], dict[s
         else:
             options[flag] = text
     return arguments[:start], options
+
+
+def record_options(form: Mapping[str, str]) -> tuple[str, ...]:
+    """Return the options of a record whose files do not state its unit or sampling interval, or hold several stations."""
+    values = {flag: form.get(name, "").strip() for name, flag in RECORD_FIELDS.items()}
+    return tuple(text for flag, value in values.items() if value for text in (flag, value))
 
 
 def scenario_arguments(form: Mapping[str, str], record: tuple[str, ...]) -> tuple[str, ...]:

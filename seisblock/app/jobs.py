@@ -9,6 +9,7 @@ import json
 import multiprocessing
 import os
 import pkgutil
+import shlex
 import sys
 import time
 from collections.abc import Mapping
@@ -79,6 +80,8 @@ class Job:
     cwd, folder : Path
         Working directory, which holds the uploads, and folder of the outputs.
     locale : str
+    first : tuple of str
+        Command line before it, which makes a file of the working directory.
     """
 
     arguments: tuple[str, ...]
@@ -87,6 +90,7 @@ class Job:
     folder: Path
     locale: str
     state: JobState = JobState.WAITING
+    first: tuple[str, ...] = ()
     started: float = field(default_factory=time.monotonic)
     _process: Any = None
     _task: asyncio.Task[None] | None = None
@@ -114,13 +118,21 @@ class Job:
             self.state = JobState.RUNNING
             paths = [text for flag, name in self.outputs.items() for text in (flag, str(self.folder / name))]
             line = [*self.arguments, *paths, "--json"] if self.arguments[0] != "report" else [*self.arguments, *paths]
-            self._process = context().Process(target=run_command, args=(line, str(self.cwd), str(self.folder), self.locale), daemon=True)
-            await asyncio.to_thread(self._process.start)
-            while self._process.is_alive() and self.state is JobState.RUNNING:
-                await asyncio.sleep(POLL_S)
+            succeeds = not self.first or await self._succeeds(list(self.first))
+            if succeeds and self.state is JobState.RUNNING:
+                succeeds = await self._succeeds(line)
             if self.state is JobState.RUNNING:
-                self.state = JobState.DONE if self._process.exitcode == 0 else JobState.FAILED
-            await asyncio.to_thread(self._stop)
+                self.state = JobState.DONE if succeeds else JobState.FAILED
+
+    async def _succeeds(self, line: list[str]) -> bool:
+        """Run a command until its end or until the job is cancelled."""
+        self._process = context().Process(target=run_command, args=(line, str(self.cwd), str(self.folder), self.locale), daemon=True)
+        await asyncio.to_thread(self._process.start)
+        while self._process.is_alive() and self.state is JobState.RUNNING:
+            await asyncio.sleep(POLL_S)
+        succeeds: bool = self._process.exitcode == 0
+        await asyncio.to_thread(self._stop)
+        return succeeds
 
     def _stop(self) -> None:
         """End the process: SIGTERM, by which it removes its temporary files, then SIGKILL."""
@@ -139,6 +151,11 @@ class Job:
             task = json.loads((self.folder / "progress.json").read_text(encoding="utf-8"))
             return task["text"], task["completed"] / task["total"] if task["total"] else None
         return "", None
+
+    @property
+    def command(self) -> str:
+        """Lines that a user would type."""
+        return "\n".join(shlex.join(["seisblock", *line]) for line in (self.first, self.arguments) if line)
 
     @property
     def document(self) -> dict[str, Any]:
@@ -197,8 +214,8 @@ def preload() -> None:
 
 def run_command(arguments: list[str], cwd: str, folder: str, locale: str) -> None:
     """Run a command line in this process, with stdout and stderr in files of the folder."""
-    for name, number in (("stdout", 1), ("stderr", 2)):
-        descriptor = os.open(Path(folder, f"{name}.txt"), os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    for name, number, mode in (("stdout", 1, os.O_TRUNC), ("stderr", 2, os.O_APPEND)):
+        descriptor = os.open(Path(folder, f"{name}.txt"), os.O_WRONLY | os.O_CREAT | mode, 0o600)
         os.dup2(descriptor, number)
         os.close(descriptor)
         setattr(sys, name, open(number, "w", encoding="utf-8", closefd=False))  # noqa: SIM115

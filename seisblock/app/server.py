@@ -35,6 +35,8 @@ from seisblock.app.uploads import MAX_FILES, BodyLimit, UploadTooLargeError, sav
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import LANGUAGES, N_, get_locale, gettext, use_locale
+from seisblock.readers.discover import group_files
+from seisblock.readers.options import ReadOptions
 from seisblock.records.analytic import is_analytic
 from seisblock.samples import DEFAULT_SAMPLE, REAL_SAMPLE, sample_names
 
@@ -146,6 +148,10 @@ def create_app(folder: Path, locale: str | None = None, workers: int | None = No
                     response = _error_response(gettext(error.message))
                 except UploadTooLargeError:
                     response = _error_response(gettext(TOO_LARGE), 413, tab)
+                except HTTPException as error:
+                    if error.status_code != 400:
+                        raise
+                    response = _error_response(gettext(UNREADABLE_FORM, count=MAX_FILES), 400, tab)  # of the parser of forms
                 return response
 
         return endpoint
@@ -173,7 +179,9 @@ def create_app(folder: Path, locale: str | None = None, workers: int | None = No
     routes = [
         Route("/", index),
         Mount("/static", StaticFiles(directory=Path(__file__).with_name("static"))),
+        Route("/t/{token}/", in_tab(show_page)),
         Route("/t/{token}/alive", in_tab(alive)),
+        Route("/t/{token}/address", in_tab(address)),
         Route("/t/{token}/record", in_tab(choose_record), methods=["POST"]),
         Route("/t/{token}/fields", in_tab(object_fields)),
         Route("/t/{token}/object", in_tab(run_object), methods=["POST"]),
@@ -200,6 +208,8 @@ EXPIRED = N_("this page is no longer known to the server: reload it")
 DEFECT = N_("defect of the program: the terminal of seisblock app shows the details; please report them")
 NO_MOTION = N_("{text!r} is not an analytic motion; write, for example, sine:300gal@1.5Hz,10s or pulse:300gal@1.5Hz")
 NO_FILE = N_("no file was uploaded: choose one")
+NO_RECORD = N_("no record in the first tab: choose one there, or the other computation here")
+UNREADABLE_FORM = N_("upload damaged, or of more than {count} files: give an archive of them")
 
 
 def _error_response(text: str, status: int = 200, tab: Tab | None = None) -> Response:
@@ -213,35 +223,71 @@ async def alive(request: Request, tab: Tab) -> Response:
     return Response(status_code=204)
 
 
-async def _uploads(request: Request, tab: Tab, *, replaced: tuple[str, ...] = (), folder: str = "") -> tuple[list[str], dict[str, str]]:
-    """Save the files of a form in the tab's folder; return their names and the other fields."""
+async def address(request: Request, tab: Tab) -> Response:
+    """Answer the request by which the page takes the address of its tab."""
+    del request, tab
+    return Response()
+
+
+async def show_page(request: Request, tab: Tab) -> Response:
+    """Return the page of a tab once more: after a reload, on the way back, or in the other language."""
+    language = request.query_params.get("lang", tab.locale)
+    if language in LANGUAGES and language != tab.locale:
+        await tab.set_locale(language)
+    with use_locale(tab.locale):
+        return HTMLResponse(views.page(tab))
+
+
+async def _uploads(request: Request, tab: Tab, kind: str, *, folder: str = "") -> tuple[list[str], dict[str, str]]:
+    """Save the files of a form in the tab's folder; return their names and the other fields.
+
+    Files of another kind are kept: a sheet with the file name of the record gets a number.
+    """
     async with tab.uploading, request.form(max_files=MAX_FILES) as form:
-        fields = {key: value for key, value in form.multi_items() if isinstance(value, str)}
+        fields = {key: forms.plain_text(value) for key, value in form.multi_items() if isinstance(value, str)}
         uploads = [value for _, value in form.multi_items() if isinstance(value, UploadFile)]
-        names = await save_uploads(uploads, tab.files / folder, replaced=replaced)
+        taken = () if folder else {EVENT_FOLDER, forms.SCENARIO_TABLE, *tab.names_of_others(kind)}
+        names = await save_uploads(uploads, tab.files / folder, taken=taken)
     return names, fields
 
 
 async def choose_record(request: Request, tab: Tab) -> Response:
     """Take uploaded files, a bundled sample, an analytic motion or an intensity as the ground motion, and describe it."""
-    names, fields = await _uploads(request, tab, replaced=tab.uploaded)
+    names, fields = await _uploads(request, tab, "record")
     source = fields.get("source", "upload")
-    chosen = names if source == "upload" else [fields.get(source, "").strip()]
-    if not any(chosen):
+    chosen = names if source == "upload" else [fields.get(source, "")]
+    if source != "options" and not any(chosen):
         raise ParameterError(NO_FILE)
     if source == "motion" and not is_analytic(chosen[0]):
         raise ParameterError(NO_MOTION, text=chosen[0][:80])
     if source == "sample" and chosen[0] not in sample_names("record"):
         raise HTTPException(404)
-    tab.uploaded = tuple(names)
+    if source == "options" and not tab.uploaded:
+        return Response(status_code=204)  # they serve the next files
+    if source == "options":
+        chosen = list(tab.uploaded)
+    elif source == "upload":
+        chosen = [*await asyncio.to_thread(_rest_of_set, tab, names), *names]
+    for name in set(tab.uploaded) - set(chosen):
+        (tab.files / name).unlink(missing_ok=True)
+    is_upload = source in ("upload", "options")
+    tab.uploaded = tuple(chosen) if is_upload else ()
     await tab.cancel("record")
     await tab.cancel("object")  # its result is that of the previous record
     if source == "intensity":
         tab.record, tab.intensity = (), chosen[0]
         return HTMLResponse(views.intensity_summary(tab))
-    tab.record, tab.intensity = tuple(chosen), ""
+    tab.record, tab.intensity = (*chosen, *(forms.record_options(fields) if is_upload else ())), ""
+    tab.record_form = fields if is_upload else {}
     await tab.start("record", ("measure", *tab.record), {"--plot": "figure.png"})
     return HTMLResponse(views.job_started(tab, "record"))
+
+
+def _rest_of_set(tab: Tab, names: list[str]) -> list[str]:
+    """Return the previous files of a record to which the new ones are further components, as those of a station of K-NET are."""
+    previous = [name for name in tab.uploaded if name not in names]
+    records = list(group_files([str(tab.files / name) for name in (*previous, *names)], ReadOptions())) if previous else []
+    return previous if len(records) == 1 else []
 
 
 async def object_fields(request: Request, tab: Tab) -> Response:
@@ -251,10 +297,11 @@ async def object_fields(request: Request, tab: Tab) -> Response:
 
 async def run_object(request: Request, tab: Tab) -> Response:
     """Compute the response of the object."""
-    names, fields = await _uploads(request, tab)
+    names, fields = await _uploads(request, tab, "object")
     if names:
         tab.body_files = tuple(names)
     body = forms.body_arguments(fields, tab.body_files)
+    first = forms.scan_arguments(fields, tab.body_files)
     floor = forms.floor_arguments(fields)
     if tab.intensity:
         object_file = forms.write_scenario_object(fields, body, tab.files)
@@ -263,9 +310,10 @@ async def run_object(request: Request, tab: Tab) -> Response:
     else:
         line = ("respond", *tab.record, *body, *floor, *forms.solver_arguments(fields))
         outputs = {"--plot": "figure.png", "--csv": "histories.csv"}
+    tab.form = fields
     for kind in ("film", "report"):
         await tab.cancel(kind)
-    await tab.start("object", line, outputs)
+    await tab.start("object", line, outputs, first)
     return HTMLResponse(views.job_started(tab, "object"))
 
 
@@ -281,7 +329,7 @@ async def run_film(request: Request, tab: Tab) -> Response:
 
 async def _new_sheet(request: Request, tab: Tab, kind: str) -> dict[str, str]:
     """Take the sheet of a survey or a collection, or keep the previous one; return the other fields of the form."""
-    names, fields = await _uploads(request, tab)
+    names, fields = await _uploads(request, tab, kind)
     if names:
         tab.sheets[kind] = names[0]
     if kind not in tab.sheets:
@@ -296,6 +344,8 @@ async def run_survey(request: Request, tab: Tab) -> Response:
     cemetery = await asyncio.to_thread(_in_locale, tab.locale, read_cemetery, tab.files / sheet)
     tab.columns = views.cemetery_facts(cemetery)
     outputs = {"--plot": "figure.png", "--csv": "table.csv", "--stones": "stones.csv"}
+    if fields.get("under") == "record" and not tab.record:
+        raise ParameterError(NO_RECORD)
     if fields.get("under") == "record" or all(stone.fallen is None for stone in cemetery.stones):
         line = ("overturn-rate", *(tab.record or (DEFAULT_SAMPLE,)), "--cemetery", sheet)
     else:
@@ -333,7 +383,7 @@ async def run_event(request: Request, tab: Tab) -> Response:
     await tab.cancel("event")
     if request.headers.get("content-type", "").startswith("multipart"):
         await asyncio.to_thread(shutil.rmtree, tab.files / EVENT_FOLDER, ignore_errors=True)
-    names, fields = await _uploads(request, tab, folder=EVENT_FOLDER)
+    names, fields = await _uploads(request, tab, "event", folder=EVENT_FOLDER)
     if names:
         tab.sheets["event"] = EVENT_FOLDER
     elif fields.get("sample"):

@@ -28,13 +28,15 @@ class Tab:
         Its part of the temporary folder: ``files`` for uploads, one folder for each job.
     locale : str
     record, intensity : tuple of str, str
-        Ground motion: arguments RECORD, or the JMA intensity of a scenario.
+        Ground motion: arguments RECORD and their options, or the JMA intensity of a scenario.
     uploaded, body_files : tuple of str
         Uploaded files of the record and of the object.
     sheets : dict of str to str
         Uploaded sheet of the survey and of the collection, and the files of the event.
-    columns : tuple of (str, str)
-        What was recognised of the survey's sheet.
+    columns : tuple of (str, int, int)
+        What was recognised of the survey's sheet: name of a column, rows with a value, all rows.
+    form, record_form : dict of str to str
+        Fields of the object that was computed, and of the record.
     scenario : tuple of str
         Arguments of the collection's scenario.
     slots : asyncio.Semaphore
@@ -50,7 +52,9 @@ class Tab:
     uploaded: tuple[str, ...] = ()
     body_files: tuple[str, ...] = ()
     sheets: dict[str, str] = field(default_factory=dict)
-    columns: tuple[tuple[str, str], ...] = ()
+    columns: tuple[tuple[str, int, int], ...] = ()
+    form: dict[str, str] = field(default_factory=dict)
+    record_form: dict[str, str] = field(default_factory=dict)
     scenario: tuple[str, ...] = ()
     jobs: dict[str, Job] = field(default_factory=dict)
     serials: dict[str, int] = field(default_factory=dict)
@@ -65,13 +69,29 @@ class Tab:
         path.mkdir(parents=True, exist_ok=True)
         return path
 
-    async def start(self, kind: str, arguments: tuple[str, ...], outputs: Mapping[str, str] | None = None) -> Job:
-        """Start a command; it replaces the previous one of its kind, which is cancelled."""
+    def names_of_others(self, kind: str) -> set[str]:
+        """Return the names of uploaded files that are not of a kind."""
+        files = {"record": self.uploaded, "object": self.body_files, **{sheet: (name,) for sheet, name in self.sheets.items()}}
+        return {name for other, names in files.items() if other != kind for name in names}
+
+    async def start(
+        self, kind: str, arguments: tuple[str, ...], outputs: Mapping[str, str] | None = None, first: tuple[str, ...] = ()
+    ) -> Job:
+        """Start a command, after another one that makes its input; it replaces the previous one of its kind, which is cancelled."""
         await self.cancel(kind)
         serial = self.serials[kind] = self.serials.get(kind, 0) + 1
-        job = self.jobs[kind] = Job(arguments, outputs or {}, self.files, self.folder / f"{kind}-{serial}", self.locale)
+        job = self.jobs[kind] = Job(arguments, outputs or {}, self.files, self.folder / f"{kind}-{serial}", self.locale, first=first)
         job.start(self.slots)
         return job
+
+    async def set_locale(self, locale: str) -> None:
+        """Change the language of the page and run its commands again, whose figures and tables have texts."""
+        self.locale = locale
+        for kind, job in list(self.jobs.items()):
+            if kind in ("film", "report", "secure"):
+                await self.cancel(kind)
+            else:
+                await self.start(kind, job.arguments, job.outputs, job.first)
 
     async def cancel(self, kind: str) -> None:
         """Cancel the job of a kind and remove its files."""

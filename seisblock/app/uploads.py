@@ -7,6 +7,7 @@ import contextlib
 import re
 import shutil
 import time
+import unicodedata
 from collections.abc import Iterable
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -24,8 +25,11 @@ IDLE_S, MAX_DISCARD_S = 1.0, 60.0
 MAX_FILES = 5000
 """Largest number of files of one upload."""
 
-MAX_NAME_LENGTH = 120
-"""Longest file name that is kept; the beginning of a longer one is dropped."""
+MAX_NAME_BYTES = 200
+"""Longest file name that is kept, bytes of UTF-8 (file systems take 255); the beginning of a longer one is dropped."""
+
+_RESERVED = re.compile(r'[\x00-\x1f\x7f<>:"/|?*\[\]]')
+"""Characters that a system or the pattern of a command line reserves."""
 
 
 class UploadTooLargeError(Exception):
@@ -79,35 +83,37 @@ def safe_name(name: str) -> str:
 
     Examples
     --------
-    >>> safe_name("../../etc/passwd"), safe_name("C:\\data\\記録 1.csv"), safe_name("-o<b>.csv"), safe_name("")
-    ('passwd', '記録 1.csv', 'o_b_.csv', 'file')
+    >>> safe_name("../../etc/passwd"), safe_name("C:\\data\\記録（1）.csv"), safe_name("-o<b>.csv"), safe_name("")
+    ('passwd', '記録（1）.csv', 'o_b_.csv', 'file')
     """
-    last = PurePosixPath(name.replace("\\", "/")).name
-    return re.sub(r"[^\w.()+, -]", "_", last).lstrip("-.~ ")[-MAX_NAME_LENGTH:] or "file"
+    last = unicodedata.normalize("NFC", PurePosixPath(name.replace("\\", "/")).name)
+    printable = "".join(letter if letter.isprintable() else "_" for letter in _RESERVED.sub("_", last))
+    end = printable.encode(errors="replace")[-MAX_NAME_BYTES:].decode(errors="ignore")
+    return end.lstrip("-.~@ ").rstrip(". ") or "file"
 
 
-async def save_uploads(uploads: Iterable[UploadFile], folder: Path, *, replaced: Iterable[str] = ()) -> list[str]:
-    """Write uploads to a folder and return their names there; `replaced` files are removed first.
+async def save_uploads(uploads: Iterable[UploadFile], folder: Path, *, taken: Iterable[str] = ()) -> list[str]:
+    """Write uploads to a folder and return their names there.
 
-    A file of the same name in another folder of the user gets a number.
+    A file gets a number where its name is `taken`, or that of a file in another folder of the user.
     """
-    for name in replaced:
-        (folder / name).unlink(missing_ok=True)
     folder.mkdir(parents=True, exist_ok=True)
     names: list[str] = []
+    used = set(map(str.casefold, taken))
     for upload in uploads:
         if not upload.filename:
             continue
-        name = _free_name(safe_name(upload.filename), names)
+        name = _free_name(safe_name(upload.filename), used)
+        used.add(name.casefold())
         await asyncio.to_thread(_copy, upload.file, folder / name)
         names.append(name)
     return names
 
 
-def _free_name(name: str, names: list[str]) -> str:
+def _free_name(name: str, used: set[str]) -> str:
     stem, dot, suffix = name.partition(".")
     number, free = 1, name
-    while free in names:
+    while free.casefold() in used:
         number += 1
         free = f"{stem}_{number}{dot}{suffix}"
     return free

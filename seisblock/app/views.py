@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 import csv
-import shlex
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
+
+from markupsafe import Markup
 
 from seisblock.app import forms
 from seisblock.app.jobs import Job, JobState
 from seisblock.app.sessions import Tab
 from seisblock.bodies.body_name import body_name
 from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.bodies.friction import surface
 from seisblock.core.i18n import LANGUAGES, N_, format_percent, format_share, gettext, join_list
 from seisblock.core.units import parse_length
 from seisblock.output.templating import make_environment
+from seisblock.readers.discover import group_files
+from seisblock.readers.options import ReadOptions
 from seisblock.samples import DEFAULT_SAMPLE, REAL_SAMPLE, list_samples
 
 TEMPLATES = Path(__file__).with_name("templates")
 
 KINDS = ("record", "object", "film", "report", "survey", "collection", "secure", "event")
 """Kinds of jobs."""
+
+SLOTS = ("record", "object", "survey", "collection", "event")
+"""Kinds of jobs whose results a page shows again when it is reloaded."""
 
 TABS = {"object": N_("One object"), "survey": N_("A survey"), "collection": N_("A collection"), "event": N_("An event")}
 """Tabs of the page."""
@@ -45,17 +52,18 @@ def render(template: str, **values: Any) -> str:
 
 
 def page(tab: Tab) -> str:
-    """Return the page of a new tab."""
-    records = [(sample.name, gettext(sample.description)) for sample in list_samples() if sample.kind == "record"]
+    """Return the page of a tab, with the results that it has."""
     return render(
         "page.html",
         tab=tab,
         tabs=TABS,
         languages={code: LANGUAGE_NAMES[code] for code in LANGUAGES},
-        records=records,
+        choices=_record_choices(tab),
+        record_units=forms.RECORD_UNITS,
+        slots={kind: _slot(tab, kind) for kind in SLOTS},
         default_record=DEFAULT_SAMPLE,
         intensities=forms.JMA_CHOICES,
-        fields=_field_values({}),
+        fields=_field_values(tab.form, keep_sizes=True),
         default_intensity=forms.DEFAULT_INTENSITY,
         record_scenario=forms.RECORD_SCENARIO,
         survey_sheet=forms.SURVEY_SHEET,
@@ -66,15 +74,31 @@ def page(tab: Tab) -> str:
     )
 
 
+def _record_choices(tab: Tab) -> dict[str, Any]:
+    """Return the choices of a ground motion that are no files, and the one in force."""
+    from seisblock.records.analytic import is_analytic
+
+    samples = [(sample.name, gettext(sample.description)) for sample in list_samples() if sample.kind == "record"]
+    chosen = "" if tab.uploaded or not tab.record else tab.record[0]
+    motion = chosen if is_analytic(chosen) else ""
+    return {"samples": samples, "sample": "" if motion else chosen, "motion": motion, "intensities": forms.JMA_CHOICES}
+
+
+def _slot(tab: Tab, kind: str) -> Markup:
+    """Return the place of a job's result in a page that is loaded again."""
+    text = render("slot.html", tab=tab, kind=kind, job=tab.jobs.get(kind), serial=tab.serials.get(kind), label=_intensity_label(tab))
+    return Markup(text.strip())
+
+
 def object_fields(tab: Tab, form: Mapping[str, str]) -> str:
     """Return the fields of the object that was chosen; one by its sizes keeps those that were typed."""
     return render("object_fields.html", tab=tab, fields=_field_values(form))
 
 
-def _field_values(form: Mapping[str, str]) -> dict[str, Any]:
-    """Return the fields of an object: choices with drawings, and the sizes of the chosen one."""
+def _field_values(form: Mapping[str, str], *, keep_sizes: bool = False) -> dict[str, Any]:
+    """Return the fields of an object: choices with drawings, and its sizes, those of a bundled one unless they are kept."""
     choice = form.get("object", "")
-    bodies, chosen = forms.body_options(), forms.find_body(choice)
+    bodies, chosen = forms.body_options(), None if keep_sizes else forms.find_body(choice)
     width, height = (form.get("width", ""), form.get("height", "")) if chosen is None else forms.size_texts(chosen)
     return {
         "choice": choice or forms.OWN_SIZES + "block",
@@ -86,6 +110,9 @@ def _field_values(form: Mapping[str, str]) -> dict[str, Any]:
         "height": height,
         "mu": forms.number_text(chosen.mu) if chosen else form.get("mu", ""),
         "surfaces": forms.surface_labels(),
+        "surface": form.get("surface", "") if keep_sizes else "",
+        "scan_units": forms.SCAN_UNITS,
+        "scan_axes": forms.SCAN_AXES,
     }
 
 
@@ -117,7 +144,8 @@ def error_page(text: str) -> str:
 
 def job_started(tab: Tab, kind: str) -> str:
     """Return the place of a job's result while it runs, and an empty region of errors."""
-    return render("job.html", tab=tab, kind=kind, job=tab.jobs[kind], serial=tab.serials[kind], text="", share=None)
+    choices = _record_choices(tab) if kind == "record" else None
+    return render("job.html", tab=tab, kind=kind, job=tab.jobs[kind], serial=tab.serials[kind], text="", share=None, choices=choices)
 
 
 def progress(tab: Tab, kind: str, job: Job) -> str:
@@ -156,7 +184,7 @@ def record_summary(tab: Tab, job: Job) -> str:
         tab=tab,
         name=record["station"] or record["source"],
         facts=[
-            (gettext("files of the record"), join_list(tab.record)),
+            (gettext("files of the record"), join_list(forms.split_arguments(tab.record)[0])),
             (gettext("station"), " ".join(text for text in (record["station"], record["station_name"]) if text)),
             (gettext("begin"), record["local_start"] or record["start"] or ""),
             (gettext("earthquake"), _earthquake(record)),
@@ -189,7 +217,11 @@ def _earthquake(record: Mapping[str, Any]) -> str:
 
 def intensity_summary(tab: Tab) -> str:
     """Return the description of a ground motion given by its intensity."""
-    return render("intensity.html", tab=tab, label=gettext(forms.JMA_CHOICES.get(tab.intensity, tab.intensity)))
+    return render("intensity.html", tab=tab, label=_intensity_label(tab), choices=_record_choices(tab))
+
+
+def _intensity_label(tab: Tab) -> str:
+    return gettext(forms.JMA_CHOICES.get(tab.intensity, tab.intensity))
 
 
 def object_result(tab: Tab, job: Job) -> str:
@@ -204,7 +236,7 @@ def object_result(tab: Tab, job: Job) -> str:
         **result,
         notes=job.notes,
         has_film=not is_scenario,
-        command=shlex.join(["seisblock", *job.arguments]),
+        command=job.command,
         python="" if is_scenario else python_lines(job.arguments),
     )
 
@@ -289,14 +321,51 @@ def python_lines(arguments: tuple[str, ...]) -> str:
     middle of the prior of its kind.
     """
     records, options = forms.split_arguments(arguments[1:])
-    if len(records) > 1 or not {"--width", "--height", "--mu"} <= options.keys() <= {"--width", "--height", "--kind", "--mu"}:
+    if not options.keys() <= PYTHON_OPTIONS or not {"--mu", "--surface"} & options.keys() or (body := _python_body(options)) is None:
         return ""
+    if len(records) > 1 and len(list(group_files(records, ReadOptions()))) > 1:
+        return ""
+    source = list(records) if len(records) > 1 else records[0] if records else DEFAULT_SAMPLE
+    reading = "".join(f", {name}={value}" for name, flag in forms.RECORD_FIELDS.items() if (value := _python_value(options, flag)))
+    friction = surface(options["--surface"]) if "--surface" in options else None
+    values = {
+        "mu": options.get("--mu") if friction is None else f"{friction.mu:g}",
+        "mu_kinetic": options.get("--mu-kinetic") or (None if friction is None else f"{friction.mu_kinetic:g}"),
+        "vertical": {"--vertical": "True", "--no-vertical": "False"}.get(next((flag for flag in options if "vertical" in flag), "")),
+        "gravity": options.get("--gravity"),
+    }
+    keywords = ", ".join(f"{name}={value}" for name, value in values.items() if value is not None)
+    lines = [
+        "import seisblock",
+        "",
+        f"record = seisblock.records.Preparation().apply(seisblock.read({source!r}{reading}))  # without the offset of an instrument",
+        *body,
+        f"results = [seisblock.assess(body, record, components=[c.code], {keywords}) for c in record.horizontals]",
+        "print(max(result.overturning_probability for result in results))",
+    ]
+    return "\n".join(lines)
+
+
+def _python_body(options: Mapping[str, str]) -> list[str] | None:
+    """Return the lines of Python that make a body; None for an uploaded file, and for a scan, which the command solves in space."""
+    if "--block" in options:
+        body = forms.find_body(options["--block"])
+        return None if body is None or body.width_m is None else [f"body = seisblock.load_block({body.name!r})"]
+    if not {"--width", "--height"} <= options.keys():
+        return None
     sizes = ", ".join(f"{parse_length(options[flag]):g}" for flag in ("--width", "--height"))
-    lines = ["import seisblock", "", f"record = seisblock.read({records[0] if records else DEFAULT_SAMPLE!r})"]
-    lines += [f"body = seisblock.Block({sizes})"]
-    lines += [f"body = seisblock.bodies.kinds.of_kind(body, {options['--kind']!r})"] if "--kind" in options else []
-    lines += [f"results = [seisblock.assess(body, record, mu={options['--mu']}, components=[c.code]) for c in record.horizontals]"]
-    return "\n".join([*lines, "print(max(result.overturning_probability for result in results))"])
+    kind = [f"body = seisblock.bodies.kinds.of_kind(body, {options['--kind']!r})"] if "--kind" in options else []
+    return [f"body = seisblock.Block({sizes})", *kind]
+
+
+def _python_value(options: Mapping[str, str], flag: str) -> str:
+    return "" if flag not in options else options[flag] if flag == "--dt" else repr(options[flag])
+
+
+PYTHON_OPTIONS = frozenset(
+    ("--width", "--height", "--kind", "--block", "--mu", "--mu-kinetic", "--surface", "--vertical", "--no-vertical", "--gravity")
+) | frozenset(forms.RECORD_FIELDS.values())
+"""Options of ``respond`` that :func:`seisblock.assess` has, too."""
 
 
 def film(tab: Tab, job: Job) -> str:
@@ -305,8 +374,8 @@ def film(tab: Tab, job: Job) -> str:
     return render("film_slot.html", tab=tab, serial=tab.serials["film"])
 
 
-def cemetery_facts(cemetery: Cemetery) -> tuple[tuple[str, str], ...]:
-    """Return what was recognised of a sheet of gravestones."""
+def cemetery_facts(cemetery: Cemetery) -> tuple[tuple[str, int, int], ...]:
+    """Return what was recognised of a sheet of gravestones: name of a column, rows with a value, all rows."""
     stones = cemetery.stones
     counts = {
         N_("height over width"): len(stones),
@@ -315,9 +384,7 @@ def cemetery_facts(cemetery: Cemetery) -> tuple[tuple[str, str], ...]:
         N_("reinforced"): sum(stone.reinforced for stone in stones),
         N_("azimuth"): sum(stone.azimuth_deg is not None for stone in stones),
     }
-    return tuple(
-        (gettext(name), gettext("{count} of {rows} rows", count=count, rows=len(stones))) for name, count in counts.items() if count
-    )
+    return tuple((name, count, len(stones)) for name, count in counts.items() if count)
 
 
 def survey_result(tab: Tab, job: Job) -> str:
@@ -331,7 +398,7 @@ def survey_result(tab: Tab, job: Job) -> str:
         "survey.html",
         tab=tab,
         name=tab.sheets["survey"],
-        columns=tab.columns,
+        columns=[(gettext(name), gettext("{count} of {rows} rows", count=count, rows=rows)) for name, count, rows in tab.columns],
         facts=_shaking_facts(result) if is_estimate else _rate_facts(result),
         agreement="" if not contingency else _agreement(contingency),
         contingency=contingency,
@@ -348,7 +415,7 @@ def survey_result(tab: Tab, job: Job) -> str:
             for stone in stones
         ],
         notes=job.notes,
-        command=shlex.join(["seisblock", *job.arguments]),
+        command=job.command,
     )
 
 
@@ -411,7 +478,7 @@ def collection_result(tab: Tab, job: Job) -> str:
         }
         for row, texts in zip(job.document["results"], _table_rows(job), strict=True)
     ]
-    return render("collection.html", tab=tab, rows=rows, notes=job.notes, command=shlex.join(["seisblock", *job.arguments]))
+    return render("collection.html", tab=tab, rows=rows, notes=job.notes, command=job.command)
 
 
 def _table_rows(job: Job) -> list[dict[str, str]]:
@@ -443,13 +510,13 @@ def secure_result(tab: Tab, job: Job) -> str:
         now=format_share(result["overturning_probability"]),
         target=format_share(result["target_probability"]),
     )
-    return render("secure.html", tab=tab, heading=heading, rows=rows, command=shlex.join(["seisblock", *job.arguments]))
+    return render("secure.html", tab=tab, heading=heading, rows=rows, command=job.command)
 
 
 def event_result(tab: Tab, job: Job) -> str:
     """Return the map of an event."""
     count = len(job.document["results"])
-    return render("event.html", tab=tab, count=count, notes=job.notes, command=shlex.join(["seisblock", *job.arguments]))
+    return render("event.html", tab=tab, count=count, notes=job.notes, command=job.command)
 
 
 VIEWS: Mapping[str, Callable[[Tab, Job], str]] = {

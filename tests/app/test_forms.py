@@ -66,20 +66,40 @@ def test_report_keeps_record_body_friction_and_floor():
 def test_python_lines_exist_only_where_they_give_the_same():
     sizes = ("--width", "45cm", "--height", "1.8m")
     assert "seisblock.Block(0.45, 1.8)" in python_lines(("respond", "a.csv", *sizes, "--mu", "0.3"))
-    assert python_lines(("respond", "a.csv", *sizes, "--mu", "0.3", "--restitution", "0.2")) == ""
-    assert python_lines(("respond", "a.csv", *sizes, "--surface", "wood/wood")) == ""
-    assert python_lines(("respond", "a.csv", "--block", "bookcase")) == ""
-    assert python_lines(("respond", "a.NS", "a.EW", *sizes, "--mu", "0.3")) == ""
+    assert "mu=0.5, mu_kinetic=0.3" in python_lines(("respond", "a.csv", *sizes, "--surface", "wood/wood"))
+    assert "seisblock.read(['a.NS', 'a.EW'], station='AOM008')" in python_lines(
+        ("respond", "a.NS", "a.EW", "--station", "AOM008", *sizes, "--mu", "0.3")
+    )
+    for line in (
+        ("a.csv", *sizes, "--mu", "0.3", "--restitution", "0.2"),
+        ("a.csv", "--block", "bookcase"),
+        ("a.csv", "--block", "boulder", "--mu", "0.3"),
+        ("a.csv", "--block", "mine.toml", "--mu", "0.3"),
+        ("a.NS", "b.NS", *sizes, "--mu", "0.3"),
+    ):
+        assert python_lines(("respond", *line)) == "", line
 
 
 @pytest.mark.slow
-def test_python_lines_print_the_probability_of_the_command(capsys):
-    line = ("respond", "hanmer_springs_2016", "--width", "40cm", "--height", "180cm", "--kind", "gravestone", "--mu", "0.3")
-    exec(python_lines(line), {})
+@pytest.mark.parametrize(
+    "line",
+    [
+        ("hanmer_springs_2016", "--width", "40cm", "--height", "180cm", "--kind", "gravestone", "--mu", "0.3"),
+        ("hanmer_springs_2016", "--width", "30cm", "--height", "150cm", "--surface", "wood/wood", "--no-vertical"),
+        ("hanmer_springs_2016", "--block", "bookcase", "--mu", "0.25"),
+        ("synthetic_knet.EW", "synthetic_knet.NS", "--width", "80cm", "--height", "200cm", "--mu", "0.6"),
+    ],
+)
+def test_python_lines_print_the_probability_of_the_command(capsys, line):
+    exec(python_lines(("respond", *line)), {})
     printed = float(capsys.readouterr().out)
-    result = CliRunner().invoke(main, [*line, "--json", "--quiet"])
+    result = CliRunner().invoke(main, ["respond", *line, "--json", "--quiet"])
     rows = json.loads(result.stdout)["results"]
     assert printed == max(row["assessment"]["overturning_probability"] for row in rows) > 0.0
+
+
+def test_record_options_are_those_that_were_filled_in():
+    assert forms.record_options({"station": " AOM008 ", "units": "gal", "dt": ""}) == ("--station", "AOM008", "--units", "gal")
 
 
 def test_scenario_of_a_collection_is_an_intensity_a_peak_or_the_record_of_the_first_tab():

@@ -22,6 +22,7 @@ from seisblock.cli import app as command
 from seisblock.cli import main
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import use_locale
+from seisblock.samples import sample_path
 
 IDS = [
     *("record-input", "object-select", "width-input", "height-input", "mu-input", "run", "cancel"),
@@ -220,3 +221,110 @@ def test_uploads_are_in_a_private_temporary_folder_that_is_gone_at_the_end(tmp_p
         process.send_signal(number)
         assert process.wait(30) == code
     assert list(tmp_path.glob("seisblock-app-*")) == []
+
+
+def upload(client, address, kind, *files, **fields):
+    """Post files of a form without a worker; return the response."""
+    names = {"record": "upload", "event": "archive"}
+    return client.post(f"{address}/{kind}", data=fields, files=[(names.get(kind, "sheet"), file) for file in files])
+
+
+@pytest.fixture
+def lines(monkeypatch):
+    """Command lines that the page would run."""
+    started = []
+
+    def start(self, slots):
+        started.append(self.arguments)
+        self.state = JobState.DONE
+
+    monkeypatch.setattr(Job, "start", start)
+    return started
+
+
+def test_file_of_one_tab_does_not_replace_a_file_of_the_same_name_of_another(client, tmp_path, lines):
+    address = tab_address(client)
+    sheet = b"height (cm),width (cm),fallen\n72,24,1\n60,30,0\n"
+    upload(client, address, "record", ("data.csv", b"1"), source="upload")
+    upload(client, address, "survey", ("DATA.csv", sheet))
+    upload(client, address, "collection", ("object.csv", b"3"))
+    assert [line[-1] for line in lines] == ["data.csv", "DATA_2.csv", "object_2.csv"]
+    assert {path.name for path in tmp_path.glob("*/files/*.csv")} == {"data.csv", "DATA_2.csv", "object_2.csv"}
+    assert (next(tmp_path.glob("*/files/data.csv"))).read_bytes() == b"1"
+
+
+def test_record_named_like_the_folder_of_the_event_leaves_room_for_it(client, lines):
+    address = tab_address(client)
+    upload(client, address, "record", ("event", b"1"), source="upload")
+    assert upload(client, address, "event", ("a.tar", b"2"), **{"event-object": "gravestone"}).status_code == 200
+    assert [line[1] for line in lines] == ["event_2", "event"]
+
+
+def test_components_of_a_station_that_are_dropped_one_after_another_are_one_record(client, lines):
+    address = tab_address(client)
+    for name in ("AOM0081604160125.NS", "AOM0081604160125.EW", "AOM0091604160125.NS"):
+        upload(client, address, "record", (name, sample_path(f"synthetic_knet.{name[-2:]}").read_bytes()), source="upload")
+    assert lines == [
+        ("measure", "AOM0081604160125.NS"),
+        ("measure", "AOM0081604160125.NS", "AOM0081604160125.EW"),
+        ("measure", "AOM0091604160125.NS"),
+    ]
+
+
+def test_unit_of_a_record_is_given_with_its_files_or_afterwards(client, lines):
+    address = tab_address(client)
+    upload(client, address, "record", ("a.csv", b"1"), source="upload", units="gal")
+    client.post(address + "/record", data={"source": "options", "units": "g", "station": "", "dt": "0.02"})
+    assert lines == [("measure", "a.csv", "--units", "gal"), ("measure", "a.csv", "--units", "g", "--dt", "0.02")]
+    client.post(address + "/record", data={"source": "motion", "motion": "pulse:300gal@1.5Hz"})
+    assert client.post(address + "/record", data={"source": "options", "units": "gal"}).status_code == 204
+
+
+def test_rejected_motion_keeps_the_files_of_the_record(client, tmp_path, lines):
+    address = tab_address(client)
+    upload(client, address, "record", ("data.csv", b"1"), source="upload")
+    client.post(address + "/record", data={"source": "motion", "motion": "nonsense"})
+    assert len(list(tmp_path.glob("*/files/data.csv"))) == 1
+
+
+def test_long_japanese_name_is_shortened_to_what_file_systems_take(client, lines):
+    response = upload(client, tab_address(client), "record", ("記" * 110 + ".csv", b"1"), source="upload")
+    assert response.status_code == 200 and len(lines[0][1].encode()) <= uploads.MAX_NAME_BYTES and lines[0][1].endswith("記.csv")
+
+
+def test_survey_under_the_record_of_the_first_tab_requires_one(client, lines):
+    address = tab_address(client)
+    client.post(address + "/record", data={"source": "intensity", "intensity": "6+"})
+    response = upload(client, address, "survey", ("s.csv", b"height (cm),width (cm)\n72,24\n"), under="record")
+    assert "no record in the first tab" in response.text and lines == []
+
+
+def test_too_many_files_are_an_error_of_the_page(client):
+    response = upload(client, tab_address(client), "record", *[(f"{n}.txt", b"") for n in range(uploads.MAX_FILES + 1)], source="upload")
+    assert response.status_code == 400 and 'data-testid="error"' in response.text and response.headers["hx-retarget"] == "#error"
+
+
+def test_page_that_is_loaded_again_has_its_record_object_and_results(client, lines):
+    address = tab_address(client)
+    client.post(address + "/record", data={"source": "motion", "motion": "ｓｉｎｅ：300gal@1.5Hz,10s"})
+    client.post(address + "/object", data={"object": "sizes:block", "width": "３３", "height": "99", "mu": "0.7", "floor": "0.5"})
+    assert lines[-1] == (
+        "respond", "sine:300gal@1.5Hz,10s", "--width", "33cm", "--height", "99cm", "--mu", "0.7", "--floor", "T=0.5,height=0.5",
+    )  # fmt: skip
+    text = client.get(address + "/").text
+    assert 'value="sine:300gal@1.5Hz,10s"' in text and 'value="33"' in text and 'value="0.5"' in text
+    assert f"{address}/jobs/record/1" in text and f"{address}/jobs/object/1" in text
+    # the other language computes again, because figures and tables have texts
+    text = client.get(address + "/", params={"lang": "ja"}).text
+    assert '<html lang="ja">' in text and f"{address}/jobs/object/2" in text and lines[-1] == lines[1]
+
+
+def test_scan_of_an_object_becomes_a_body_first(client, monkeypatch):
+    started = []
+    monkeypatch.setattr(Job, "start", lambda self, slots: started.append(self))
+    data = {"object": "file", "mu": "0.6", "scan-unit": "mm", "scan-up": "y"}
+    client.post(tab_address(client) + "/object", data=data, files=[("body-file", ("岩.stl", b"solid"))])
+    assert started[0].command.splitlines() == [
+        "seisblock body '岩.stl' --unit mm --up y --out '岩.toml'",
+        "seisblock respond --block '岩.toml' --mu 0.6",
+    ]
