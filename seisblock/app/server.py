@@ -8,6 +8,7 @@ import csv
 import math
 import os
 import shutil
+import signal
 import socket
 import tempfile
 from collections.abc import AsyncIterator, Callable
@@ -16,6 +17,7 @@ from typing import Any, TypeVar
 from urllib.parse import urlsplit
 
 import uvicorn
+from markupsafe import escape
 from starlette.applications import Starlette
 from starlette.background import BackgroundTask
 from starlette.datastructures import UploadFile
@@ -33,6 +35,7 @@ from seisblock.app.jobs import JobState, start_fork_server
 from seisblock.app.sessions import Tab, Tabs
 from seisblock.app.uploads import MAX_FILES, BodyLimit, UploadTooLargeError, save_uploads
 from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.core._signals import temporary_handler
 from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import LANGUAGES, N_, get_locale, gettext, use_locale
 from seisblock.readers.discover import group_files
@@ -184,6 +187,7 @@ def create_app(folder: Path, locale: str | None = None, workers: int | None = No
         Route("/t/{token}/address", in_tab(address)),
         Route("/t/{token}/record", in_tab(choose_record), methods=["POST"]),
         Route("/t/{token}/fields", in_tab(object_fields)),
+        Route("/t/{token}/floor", in_tab(floor_value)),
         Route("/t/{token}/object", in_tab(run_object), methods=["POST"]),
         Route("/t/{token}/film", in_tab(run_film), methods=["POST"]),
         Route("/t/{token}/report", in_tab(report)),
@@ -293,6 +297,12 @@ def _rest_of_set(tab: Tab, names: list[str]) -> list[str]:
 async def object_fields(request: Request, tab: Tab) -> Response:
     """Return the fields of the object that was chosen."""
     return HTMLResponse(views.object_fields(tab, request.query_params))
+
+
+async def floor_value(request: Request, tab: Tab) -> Response:
+    """Return the number at which a slider of the height stands."""
+    del tab
+    return HTMLResponse(escape(request.query_params.get("floor", "")[:8]))
 
 
 async def run_object(request: Request, tab: Tab) -> Response:
@@ -505,7 +515,7 @@ def bind(port: int | None) -> socket.socket:
 
 
 def serve(listener: socket.socket, on_ready: Callable[[], None], locale: str | None = None) -> None:
-    """Serve the page until Ctrl-C; uploads and results are gone at the end.
+    """Serve the page until Ctrl-C or the end of the terminal; uploads and results are gone at the end.
 
     Parameters
     ----------
@@ -520,7 +530,11 @@ def serve(listener: socket.socket, on_ready: Callable[[], None], locale: str | N
         config = uvicorn.Config(
             app, log_level="warning", access_log=False, server_header=False, timeout_graceful_shutdown=SHUTDOWN_S, lifespan="on"
         )
-        _Server(config, on_ready).run(sockets=[listener])
+        server = _Server(config, on_ready)
+        # a terminal that is closed ends the server as Ctrl-C does; Windows has no such signal
+        hang_up = getattr(signal, "SIGHUP", None)
+        with contextlib.nullcontext() if hang_up is None else temporary_handler(hang_up, server.handle_exit, default=signal.SIG_DFL):
+            server.run(sockets=[listener])
 
 
 class _Server(uvicorn.Server):

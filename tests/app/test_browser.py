@@ -105,6 +105,36 @@ def test_object_under_a_set_of_files_has_the_probability_of_the_command(browser,
     assert find(browser, "run").is_enabled()
 
 
+def test_files_dropped_on_the_text_of_a_box_are_taken(browser, address):
+    browser.get(address)
+    box = browser.find_element("css selector", ".panel-object .drop span").rect
+    data = {"items": [], "files": SET, "dragOperationsMask": 1}
+    for kind in ("dragEnter", "dragOver", "drop"):
+        place = {"x": box["x"] + 0.5 * box["width"], "y": box["y"] + box["height"] - 8}
+        browser.execute_cdp_cmd("Input.dispatchDragEvent", {"type": kind, "data": data, **place})
+    assert "synthetic_knet.UD" in find(browser, "record-summary").text
+    assert len(browser.window_handles) == 1
+
+
+def test_reload_way_back_and_other_language_keep_record_object_and_result(browser, address):
+    browser.get(address)
+    Select(find(browser, "sample-select")).select_by_value("synthetic_knet.EW")
+    find(browser, "record-summary")
+    fill(browser, width="33", height="99", mu="0.7")
+    find(browser, "run").click()
+    probability = find(browser, "probability").text
+    browser.refresh()
+    assert find(browser, "probability").text == probability and "SYN001" in find(browser, "record-summary").text
+    browser.find_element("css selector", ".languages a:not([aria-current])").click()
+    wait_until_gone(browser, "probability")
+    assert find(browser, "probability").text == probability and "転倒" in find(browser, "verdict").text
+    browser.get("about:blank")
+    browser.back()
+    assert find(browser, "probability").text == probability
+    assert find(browser, "width-input").get_attribute("value") == "33"
+    assert find(browser, "sample-select").get_attribute("value") == "synthetic_knet.EW"
+
+
 def test_wrong_file_gives_the_sentence_of_the_program_and_the_next_file_replaces_it(browser, address, tmp_path):
     path = Path(tmp_path, "notes.csv")
     path.write_text("no numbers here\n")

@@ -208,7 +208,7 @@ def test_workbook_holds_numbers_and_texts_of_the_table_and_no_formula(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 143), (signal.SIGHUP, 0)])
 def test_uploads_are_in_a_private_temporary_folder_that_is_gone_at_the_end(tmp_path, number, code):
     line = [sys.executable, "-m", "seisblock", "app", "--no-browser", "--lang", "en"]
     with subprocess.Popen(line, stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": str(tmp_path)}) as process:
@@ -328,3 +328,8 @@ def test_scan_of_an_object_becomes_a_body_first(client, monkeypatch):
         "seisblock body '岩.stl' --unit mm --up y --out '岩.toml'",
         "seisblock respond --block '岩.toml' --mu 0.6",
     ]
+
+
+def test_slider_of_the_floor_shows_its_number_as_text(client):
+    response = client.get(tab_address(client) + "/floor", params={"floor": "<b>0.5"})
+    assert response.text == "&lt;b&gt;0.5"
