@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from openpyxl import Workbook
+from PIL import Image
 
 from seisblock.samples import sample_path
 
@@ -313,3 +314,13 @@ def test_page_fits_its_window(browser, address, width):
             assert browser.execute_script("return document.documentElement.scrollWidth") <= width
     finally:
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+def test_screenshots_of_the_guide_are_small_and_drawn_by_their_script(tmp_path):
+    script = Path(__file__).parents[2] / "docs" / "figures" / "app.py"
+    subprocess.run([sys.executable, str(script), str(tmp_path)], check=True)
+    for name in ("app_en.png", "app_ja.png"):
+        guide = script.parents[1] / "_static" / name
+        with Image.open(guide) as shown, Image.open(tmp_path / name) as drawn:
+            assert guide.stat().st_size < 150_000 and shown.width == drawn.width
+            assert abs(shown.height - drawn.height) < 0.1 * shown.height
