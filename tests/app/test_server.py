@@ -1,6 +1,7 @@
 """Server of the local page without a browser: safety, languages, escaping, errors."""
 
 import asyncio
+import functools
 import json
 import os
 import re
@@ -211,7 +212,10 @@ def test_workbook_holds_numbers_and_texts_of_the_table_and_no_formula(tmp_path):
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 143), (signal.SIGHUP, 0)])
 def test_uploads_are_in_a_private_temporary_folder_that_is_gone_at_the_end(tmp_path, number, code):
     line = [sys.executable, "-m", "seisblock", "app", "--no-browser", "--lang", "en"]
-    with subprocess.Popen(line, stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": str(tmp_path)}) as process:
+    environment = {**os.environ, "TMPDIR": str(tmp_path)}
+    # as from a terminal: below nohup the signal of a closed one is ignored
+    default = functools.partial(signal.signal, number, signal.default_int_handler if number is signal.SIGINT else signal.SIG_DFL)
+    with subprocess.Popen(line, stderr=subprocess.PIPE, text=True, env=environment, preexec_fn=default) as process:
         address = next(word for text in process.stderr for word in text.split() if word.startswith("http"))
         with httpx.Client(base_url=address, timeout=60.0) as remote:
             tab = tab_address(remote)
@@ -219,7 +223,10 @@ def test_uploads_are_in_a_private_temporary_folder_that_is_gone_at_the_end(tmp_p
         (upload,) = tmp_path.glob("seisblock-app-*/*/files/*")
         assert upload.name == "note.csv" and upload.parents[2].stat().st_mode & 0o077 == 0
         process.send_signal(number)
-        assert process.wait(30) == code
+        try:
+            assert process.wait(30) == code
+        finally:
+            process.kill()
     assert list(tmp_path.glob("seisblock-app-*")) == []
 
 
