@@ -1,4 +1,4 @@
-"""Coverage of the interval of ``infer --twist``: ``python -m tests.crosscheck.twist_coverage --cases 60``.
+"""Coverage of the interval of ``infer --twist``: ``python -m tests.crosscheck.twist_coverage``.
 
 Each case draws a stone, friction and a synthetic record (none of the package's tests), a factor log-uniform between rest and overturning,
 and the true stone around the nominal one; the residual twist, read with the error of a survey, is inverted. Objects that overturn, do not

@@ -66,14 +66,14 @@ def test_pooled_pga_spans_the_records(motion):
 
 
 def test_infer_twist_command_gives_factor_and_pga(tmp_path):
-    arguments = ["infer", "--twist", "1", "--width", "24cm", "--height", "60cm", "--mu", "0.5", "--window", "21:28", "--runs", "60"]
+    arguments = ["infer", "--twist", "1", "--width", "24cm", "--height", "60cm", "--mu", "0.5", "--window", "21:28", "--runs", "200"]
     result = CliRunner().invoke(main, [*arguments, "--json", "--csv", str(tmp_path / "runs.csv")])
     assert result.exit_code == 0, result.output
     answer = json.loads(result.stdout)
     first = answer["results"][0]
     assert answer["parameters"]["object"] == "twist" and answer["station_pga_m_s2"] is None
     assert first["scale"]["low"] < first["scale"]["median"] < first["scale"]["high"]
-    assert len((tmp_path / "runs.csv").read_text(encoding="utf-8").splitlines()) == 61
+    assert len((tmp_path / "runs.csv").read_text(encoding="utf-8").splitlines()) == 201
     refused = CliRunner().invoke(main, ["infer", "--twist", "1", "--slid", "2cm", "--mu", "0.5"])
     assert refused.exit_code == 2 and "exactly one" in refused.output
     refused = CliRunner().invoke(main, ["infer", "--twist", "1", "--mu", "0.5"])

@@ -40,8 +40,8 @@ DISPLACEMENT_ERROR, MIN_DISPLACEMENT_ERROR_M = 0.2, 0.005
 PILOT_SHARE = 4
 """Runs over those of the pilot, which finds the range of factors between rest and certain overturning."""
 
-MIN_EFFECTIVE_RUNS = 8.0
-"""Effective number of runs below which there is no interval."""
+RANGE_MARGIN = 1.25
+"""Factor on both ends of the range of the pilot, whose runs have one body each: others move or overturn at other factors."""
 
 
 @dataclass(frozen=True)
@@ -187,8 +187,8 @@ def infer_twist(
         sample.append(TwistRun(scale, outcome.twist_deg, distance, outcome.overturned, weight))
     weights = np.array([run.weight for run in sample])
     effective = float(weights.sum() ** 2 / max(float(np.square(weights).sum()), 1e-300))
-    # few effective runs, or none near the observed twist, give no interval
-    enough = effective >= MIN_EFFECTIVE_RUNS and weights.max() > math.exp(-2.0)
+    # few effective runs, whose extremes are no bounds of that level, or none near the observed twist give no interval
+    enough = effective >= 2.0 / (1.0 - level) - 1.0 and weights.max() > math.exp(-2.0)
     factors = np.array([run.scale for run in sample])
     interval = _interval(factors, weights, level) if enough else None
     pga = max(peak_acceleration(row)[0] for row in (motion.horizontal, motion.transverse))
@@ -214,11 +214,11 @@ def _likelihood(twist: float, observed: float) -> float:
 
 
 def _range(pilot: Sequence[tuple[float, Rigid3dOutcome]], limit: float) -> tuple[float, float]:
-    """Return the range of factors that can matter: from the last one without motion to the first one beyond which all overturn."""
+    """Return the range of factors that can matter: from below the last one without motion to above the one beyond which all overturn."""
     first = next((k for k, (_, outcome) in enumerate(pilot) if outcome.moved), len(pilot) - 1)
     last = max((k for k, (_, outcome) in enumerate(pilot) if not outcome.overturned), default=0)
-    low = pilot[first - 1][0] if first > 0 else LEAST_FACTOR
-    high = pilot[last + 2][0] if last + 2 < len(pilot) else limit
+    low = max(pilot[max(first - 1, 0)][0] / RANGE_MARGIN, LEAST_FACTOR)
+    high = min(pilot[min(last + 1, len(pilot) - 1)][0] * RANGE_MARGIN, limit)
     return (low, high) if low < high else (LEAST_FACTOR, limit)
 
 
@@ -237,11 +237,13 @@ def pooled_pga(estimates: Sequence[TwistEstimate], level: float = 0.9) -> Factor
 
 
 def _interval(values: FloatArray, weights: FloatArray, level: float) -> FactorInterval:
-    """Return weighted median and bounds of equal tails."""
-    order = np.argsort(values)
-    # quantile positions at the middle of each weight, so that both tails are treated alike
-    shares = np.cumsum(weights[order]) - 0.5 * weights[order]
-    low, median, high = np.interp(np.array([0.5 - 0.5 * level, 0.5, 0.5 + 0.5 * level]) * weights.sum(), shares, values[order]).tolist()
+    """Return weighted median and bounds of equal tails, between which another value lies with the probability `level`."""
+    order, shares = np.argsort(values), weights / weights.sum()
+    # of n equal weights the k-th value has the position k / (n + 1): another value lies below it with this probability
+    effective = 1.0 / float(np.square(shares).sum())
+    centred = np.cumsum(shares[order]) - 0.5 * shares[order] - 0.5
+    positions = 0.5 + centred * effective / (effective + 1.0)
+    low, median, high = np.interp([0.5 - 0.5 * level, 0.5, 0.5 + 0.5 * level], positions, values[order]).tolist()
     return FactorInterval(median, low, high)
 
 
