@@ -51,6 +51,12 @@ SCENARIO_TABLE = "object.csv"
 RECORD_FIELDS = {"station": "--station", "units": "--units", "dt": "--dt"}
 """Fields of a record's form with their options."""
 
+REPORT_FLAGS = (*RECORD_FIELDS.values(), "--kind", "--mu", "--mu-kinetic", "--floor", "--gravity")
+"""Options of a response that its report has, too."""
+
+BODY_FLAGS = ("--width", "--height", "--block", "--surface")
+"""Options of a response that are the body, or its friction, of its report."""
+
 RECORD_UNITS = ("gal", "m/s2", "g")
 
 COVERED = ("mu", "initial", "further_points", "sensitivity")
@@ -260,14 +266,22 @@ def report_arguments(line: tuple[str, ...]) -> tuple[str, ...]:
     records, options = split_arguments(line[1:])
     body = options.get("--block") or f"{options['--width']}x{options['--height']}"
     pair = surface(options["--surface"]) if "--surface" in options else None
-    body_flags = {
-        flag: options[flag]
-        for flag in (*RECORD_FIELDS.values(), "--kind", "--mu", "--mu-kinetic", "--floor", "--gravity")
-        if flag in options
-    }
+    body_flags = {flag: options[flag] for flag in REPORT_FLAGS if flag in options}
     if pair is not None:
         body_flags = {"--mu": f"{pair.mu:g}", "--mu-kinetic": f"{pair.mu_kinetic:g}", **body_flags}
     return ("report", *records, "--body", body, *(text for item in body_flags.items() for text in item))
+
+
+def options_without_report(line: tuple[str, ...]) -> list[str]:
+    """Return the options of a response that a report does not have.
+
+    Examples
+    --------
+    >>> options_without_report(("respond", "a.csv", "--width", "45cm", "--mu", "0.3", "--restitution", "0.1", "--no-vertical"))
+    ['--restitution 0.1', '--no-vertical']
+    """
+    _, options = split_arguments(line[1:])
+    return [f"{flag} {value}".strip() for flag, value in options.items() if flag not in (*REPORT_FLAGS, *BODY_FLAGS)]
 
 
 def split_arguments(arguments: tuple[str, ...]) -> tuple[tuple[str, ...], dict[str, str]]:

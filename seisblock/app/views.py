@@ -236,6 +236,7 @@ def object_result(tab: Tab, job: Job) -> str:
         **result,
         notes=job.notes,
         has_film=not is_scenario,
+        unreported="" if is_scenario else join_list(forms.options_without_report(job.arguments)),
         command=job.command,
         python="" if is_scenario else python_lines(job.arguments),
     )

@@ -61,6 +61,7 @@ def test_report_keeps_record_body_friction_and_floor():
     assert forms.report_arguments((*line, "--no-vertical")) == (
         "report", "a.NS", "a.EW", "--body", "45cmx180cm", "--mu", "0.5", "--mu-kinetic", "0.3", "--floor", "T=0.5,height=1",
     )  # fmt: skip
+    assert forms.options_without_report((*line, "--restitution", "0.2", "--no-vertical")) == ["--restitution 0.2", "--no-vertical"]
 
 
 def test_python_lines_exist_only_where_they_give_the_same():

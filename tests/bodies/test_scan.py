@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
+from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from seisblock import Block, Motion, motion_of, read, solve_rock
@@ -14,6 +15,7 @@ from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.factory import block_for_motion, load_block
 from seisblock.bodies.scan.azimuths import scan_azimuths
 from seisblock.bodies.scan.body import ScannedBody, min_slenderness
+from seisblock.bodies.scan.hull import HULL_TOLERANCE_SHARE, hull_vertices
 from seisblock.bodies.scan.mass_properties import mass_properties
 from seisblock.bodies.scan.mesh import AXIS_ROTATIONS, Mesh, read_mesh
 from seisblock.bodies.scan.polygon import convex_hull, interior_distance, min_width, offset_polygon, support_distance
@@ -452,3 +454,38 @@ def test_contact_summary_compares_contacts_with_the_support_polygon():
     assert "stands on 3 of 1097 hull vertices" in text
     assert re.search(r"0\.3 cm \(contacts\), 7\.9 cm \(support polygon", text), text
     assert "stands on 4 of 8 hull vertices" in str(contact_summary(ConvexBody.box(0.3, 0.3, 0.9)))
+
+
+def dome(count):
+    """Return points on the upper part of a sphere of radius 1, and on the circle of its flat base."""
+    points = np.random.default_rng(count).normal(size=(count, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    angles = np.linspace(0.0, 2.0 * math.pi, 200, endpoint=False)
+    rim = 0.8 * np.column_stack([np.cos(angles), np.sin(angles), np.full(200, -0.75)])
+    return np.vstack([points[points[:, 2] > -0.6], rim])
+
+
+def test_fine_hull_is_reduced_within_its_tolerance():
+    """Each vertex left out lies within the tolerance of the planes of the others; a hull of up to 2000 vertices is whole."""
+    points = dome(20_000)
+    corners, whole = hull_vertices(points)
+    assert 4 * len(corners) < whole == len(ConvexHull(points).vertices)
+    planes = ConvexHull(corners).equations
+    largest = max(float((points @ plane[:3] + plane[3]).max()) for plane in planes)
+    assert 0.0 < largest <= HULL_TOLERANCE_SHARE * np.ptp(points, axis=0).max()
+    few = dome(1500)
+    assert len(hull_vertices(few)[0]) == hull_vertices(few)[1] == len(ConvexHull(few).vertices)
+
+
+def test_scan_with_a_reduced_hull_says_so_and_keeps_its_mass(tmp_path):
+    """Mass and inertia are those of the mesh."""
+    points = dome(6000)
+    hull = ConvexHull(points)
+    faces = np.array([face if np.linalg.det(points[face]) > 0.0 else face[::-1] for face in hull.simplices])
+    path = tmp_path / "dome.stl"
+    write_stl(path, points, faces)
+    scan = scan_body(path, density=1000.0)
+    assert scan.body.mass == pytest.approx(1000.0 * hull.volume, rel=1e-6)
+    assert len(scan.body.hull) < scan.whole_hull
+    (message,) = (text for text in map(str, scan_qc_messages(scan)) if "convex hull" in text)
+    assert message.startswith(f"dome: {len(scan.body.hull)} of the {scan.whole_hull} vertices of the convex hull used")

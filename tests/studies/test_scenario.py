@@ -242,6 +242,16 @@ def test_read_body_list_keeps_invalid_rows_with_their_reason_and_ignores_other_c
         read_bodies(path)
 
 
+def test_scenario_bodies_note_friction_without_effect(tmp_path):
+    """A given friction is for objects without their own."""
+    path = tmp_path / "list.csv"
+    path.write_text("name,width,height,mu\na,0.3,0.9,0.5\nb,0.4,0.9,0.4\n")
+    notes = scenario_bodies(read_bodies([path]), {"mu": 0.3})[1]
+    assert [str(note) for note in notes] == ["--mu has no effect: every object has its own friction coefficient"]
+    path.write_text("name,width,height,mu\na,0.3,0.9,0.5\nb,0.4,0.9,\n")
+    assert scenario_bodies(read_bodies([path]), {"mu": 0.3})[1] == ()
+
+
 def test_scenario_bodies_take_kinds_in_japanese_and_bundled_bodies_without_sizes(tmp_path):
     path = tmp_path / "list.csv"
     path.write_text(

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 
 from seisblock.bodies.scan.body import min_slenderness
+from seisblock.bodies.scan.hull import HULL_TOLERANCE_SHARE
 from seisblock.bodies.scan.scan import Scan
 from seisblock.core.i18n import Message, lazy_gettext
 
@@ -45,6 +46,14 @@ def scan_qc_messages(scan: Scan) -> Iterator[Message]:
             "{name} has {count} separate surfaces: they move as one body",
             name=scan.body.name,
             count=scan.pieces,
+        )
+    if len(scan.body.hull) < scan.whole_hull:
+        yield lazy_gettext(
+            "{name}: {count} of the {whole} vertices of the convex hull used; the others are within {distance:.2g} mm of it",
+            name=scan.body.name,
+            count=len(scan.body.hull),
+            whole=scan.whole_hull,
+            distance=1000.0 * HULL_TOLERANCE_SHARE * largest,
         )
     sharp_slenderness = min_slenderness(scan.body.with_wear(0.0))[0]
     tolerance_slendernesses = [

@@ -82,7 +82,7 @@ def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: fl
     base = convex_hull((vertices[in_contact] @ turn.T)[:, :2])
     if not interior_distance(base, (turn @ centre)[:2]) > 0.0:
         raise BodyError(
-            "{source} has no stable base: its {count} points within {tolerance:.3g} m of the ground do not surround the centre of "
+            "{source} has no stable base: {count} point(s) within {tolerance:.3g} m of the ground do not surround the centre of "
             "gravity; change `up`, increase `tolerance`, or cut the base level",
             source=source,
             count=int(in_contact.sum()),

@@ -11,6 +11,7 @@ import numpy as np
 from seisblock.bodies.block import DENSITY
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.bodies.scan.body import EAST, Pair, ScannedBody, Triple, min_slenderness
+from seisblock.bodies.scan.hull import hull_vertices
 from seisblock.bodies.scan.mass_properties import mass_properties
 from seisblock.bodies.scan.mesh import read_mesh
 from seisblock.bodies.scan.polygon import convex_hull
@@ -51,6 +52,8 @@ class Scan(DisplayMixin):
     source, sha256 : str
     unit, up : str
         Unit and upward axis of the file.
+    whole_hull : int
+        Number of vertices of the mesh's convex hull, of which a part is kept if there are many.
     """
 
     body: ScannedBody
@@ -69,6 +72,7 @@ class Scan(DisplayMixin):
     sha256: str
     unit: str
     up: str
+    whole_hull: int
 
 
 def scan_body(
@@ -132,9 +136,7 @@ def scan_body(
     properties = mass_properties(mesh)
     mass = density * properties.volume
 
-    from scipy.spatial import ConvexHull
-
-    hull = mesh.vertices[np.sort(ConvexHull(mesh.vertices).vertices)]
+    hull, whole = hull_vertices(mesh.vertices)
 
     def body_at_tolerance(tolerance_m: float, wear: EdgeWear) -> tuple[ScannedBody, float, int]:
         """Return the body for a tolerance, its levelling rotation and its number of support points."""
@@ -182,4 +184,5 @@ def scan_body(
         mesh.sha256,
         unit,
         up,
+        whole,
     )
