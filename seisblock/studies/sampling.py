@@ -217,7 +217,7 @@ def sample(
     --------
     >>> import numpy as np
     >>> from seisblock.uncertainty import sample
-    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> pulse = Motion.from_arrays(5.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> result = sample("respond", Block(0.24, 0.8), pulse, RespondOptions(mu=0.5), 20)
     >>> result.probability, result.completed
     (1.0, 20)

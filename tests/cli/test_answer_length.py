@@ -189,7 +189,7 @@ def test_every_command_with_tables_takes_details():
     commands = {name: main.get_command(None, name) for name in COMMANDS}
     with_gal = {name for name, command in commands.items() if any("--json" in parameter.opts for parameter in command.params)}
     with_details = {name for name, command in commands.items() if any("--details" in parameter.opts for parameter in command.params)}
-    assert with_gal - with_details == {"batch", "cite", "report", "samples"}, "summaries and lists"
+    assert with_gal - with_details == {"batch", "cite", "fetch", "report", "samples"}, "summaries and lists"
     assert "--details" in SHARED_ESSENTIAL
 
 

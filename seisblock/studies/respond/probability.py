@@ -144,7 +144,7 @@ def respond_probability(
     --------
     >>> from seisblock.uncertainty import respond_probability
     >>> import numpy as np
-    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> pulse = Motion.from_arrays(5.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> respond_probability(Block(0.24, 0.8), pulse, RespondOptions(mu=0.5), runs=20).overturned
     1.0
     """

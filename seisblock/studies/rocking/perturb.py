@@ -89,7 +89,7 @@ def perturb(
     --------
     >>> from seisblock.uncertainty import perturb
     >>> import numpy as np
-    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> pulse = Motion.from_arrays(5.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> result = perturb(Block(0.24, 0.8), pulse, 20)
     >>> result.runs, result.overturned
     (20, 20)
