@@ -40,7 +40,7 @@ def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, l
     if count < 1 or len(field_lines) * per_line < count:
         message = "{name}: file truncated: {count} numbers expected from line {line} on, end of file reached; download the file again"
         raise RecordFormatError(message, name=name, count=count, line=first + 1)
-    values = np.empty(count)
+    parts = []
     for row, text in enumerate(field_lines):
         line_count = min(per_line, count - row * per_line)
         line = text.rstrip()
@@ -48,20 +48,27 @@ def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, l
         if len(line) != line_count * width:
             message = "expected {count} numbers of {width} characters each, found {text!r}"
             raise line_error(message, name, first + row + 1, count=line_count, width=width, text=line.strip()[:80])
-        for column in range(line_count):
-            values[row * per_line + column] = _parse_field(name, first + row + 1, line[column * width : (column + 1) * width])
+        parts.append(line)
+    digits = "".join(parts)
+    try:
+        values = np.array([float(digits[start : start + width]) for start in range(0, count * width, width)])
+    except ValueError:
+        values = np.full(count, np.nan)
+    # float() accepts underscores between digits
+    if "_" in digits or not np.isfinite(values).all():
+        for number in range(count):
+            _check_field(name, first + number // per_line + 1, digits[number * width : (number + 1) * width])
     return values, first + len(field_lines)
 
 
-def _parse_field(name: str, line: int, cell: str) -> float:
+def _check_field(name: str, line: int, cell: str) -> None:
+    """Raise RecordFormatError for a cell that is not a finite number."""
     try:
         value = float(cell)
     except ValueError:
         value = float("nan")
-    # float() accepts underscores between digits
     if not isfinite(value) or "_" in cell:
         raise line_error("expected a number, found {cell!r}", name, line, cell=cell.strip())
-    return value
 
 
 def parse_sample_count(name: str, line: int, text: str) -> int:

@@ -110,8 +110,12 @@ def _power(exponent: int) -> np.uint64:
 def _is_informative(a: FloatArray, starts: IntArray) -> NDArray[np.bool_]:
     """Return whether the samples of each window repeat neither by chance nor by smoothness, (m,)."""
     windows = sliding_window_view(a, WINDOW)
-    parts = [_is_informative_window(windows[starts[i : i + _CHUNK]]) for i in range(0, starts.size, _CHUNK)]
-    return np.concatenate(parts)
+    result = np.zeros(starts.size, dtype=np.bool_)
+    for first in range(0, starts.size, _CHUNK):
+        # in noise of a few units of the resolution, most equal windows have too few values to be looked at further
+        varied = first + np.flatnonzero(_count_unique(windows[starts[first : first + _CHUNK]]) >= MIN_VALUES)
+        result[varied] = _is_informative_window(windows[starts[varied]])
+    return result
 
 
 def _is_informative_window(windows: FloatArray) -> NDArray[np.bool_]:
@@ -119,7 +123,7 @@ def _is_informative_window(windows: FloatArray) -> NDArray[np.bool_]:
     size = np.abs(steps)
     # steps of whole multiples of a resolution differ by rounding only
     rounded_steps = np.round(steps / np.maximum(size.max(axis=1, keepdims=True), 1e-300), 9)
-    is_varied = (_count_unique(windows) >= MIN_VALUES) & (_count_unique(rounded_steps) >= MIN_STEPS)
+    is_varied = _count_unique(rounded_steps) >= MIN_STEPS
     third = np.abs(np.diff(windows, 3, axis=1))
     is_smooth: NDArray[np.bool_] = np.median(third, axis=1) < SMOOTHNESS_RATIO * np.median(size, axis=1)
     return is_varied & ~is_smooth

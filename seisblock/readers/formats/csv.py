@@ -164,7 +164,7 @@ def _missing_interval_error(name: str) -> ParameterError:
 def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFlag, ...]:
     """Return flags for empty lines in a table without times and for a truncated last line."""
     flags = []
-    last = max(i for i, line in enumerate(lines) if is_data_line(line))
+    last = next(i for i in reversed(range(len(lines))) if is_data_line(lines[i]))
     empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty_lines:
         message = (

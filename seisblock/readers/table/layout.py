@@ -23,6 +23,8 @@ NO_UNIT_MARKS = ("-", "--", "―", "なし")
 INSPECTED_LINES = 50
 """Number of lines inspected to guess the meaning of a column."""
 
+_NUMBER_STARTS = frozenset("0123456789+-.")
+
 
 def merge_unit_row(names: Sequence[str], cells: Sequence[str]) -> tuple[str, ...] | None:
     """Return names with the units of the line below, or None if that is not a unit line.
@@ -173,7 +175,8 @@ def find_separator(line: str) -> str | None:
 
 def is_data_line(line: str) -> bool:
     """Return whether a line is neither blank nor a comment."""
-    return bool(line.strip(" \t,;\ufeff")) and not line.lstrip("\ufeff ").startswith("#")
+    # most lines begin with a digit or a sign
+    return line[:1] in _NUMBER_STARTS or (bool(line.strip(" \t,;\ufeff")) and not line.lstrip("\ufeff ").startswith("#"))
 
 
 def _unit_cells(line: str, separator: str | None) -> list[str]:
