@@ -247,7 +247,7 @@ def test_scenario_bodies_note_friction_without_effect(tmp_path):
     path = tmp_path / "list.csv"
     path.write_text("name,width,height,mu\na,0.3,0.9,0.5\nb,0.4,0.9,0.4\n")
     notes = scenario_bodies(read_bodies([path]), {"mu": 0.3})[1]
-    assert [str(note) for note in notes] == ["--mu has no effect: every object has its own friction coefficient"]
+    assert [str(note) for note in notes] == ["`mu` has no effect: every object has its own friction coefficient"]
     path.write_text("name,width,height,mu\na,0.3,0.9,0.5\nb,0.4,0.9,\n")
     assert scenario_bodies(read_bodies([path]), {"mu": 0.3})[1] == ()
 

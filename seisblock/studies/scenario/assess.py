@@ -117,7 +117,7 @@ def scenario_bodies(
     bodies = build_solver_bodies(get_solver("respond"), specs, {"mu": UNKNOWN_FRICTION, **given_options})
     if "mu" in given_options:
         if not any(map(is_friction_unknown, specs)):
-            notes.append(lazy_gettext("--mu has no effect: every object has its own friction coefficient"))
+            notes.append(lazy_gettext("`mu` has no effect: every object has its own friction coefficient"))
         return bodies, tuple(notes)
     result: list[SolverBody | RejectedBody] = []
     assumed = 0
