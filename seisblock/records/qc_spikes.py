@@ -159,11 +159,10 @@ def find_flipped_samples(acceleration: FloatArray) -> IntArray:
         expected = _cubic_midpoint(*(piece[k + i] for i in (0, 1, 3, 4)))
         residual, flipped_residual = np.abs(piece[k + 2] - expected), np.abs(piece[k + 2] + expected)
         # prefilter: a sample of size x with the wrong sign deviates by 2 x
-        for i in k[(residual > MIN_SURPRISE) & (flipped_residual < 0.2 * residual)].tolist():
+        for j in np.flatnonzero((residual > MIN_SURPRISE) & (flipped_residual < 0.2 * residual)):
+            i = int(k[j])
             usual = _usual_residual(piece, i)
-            x = piece[i : i + 5]
-            expected_value = _cubic_midpoint(x[0], x[1], x[3], x[4])
-            is_flipped = abs(x[2] - expected_value) > FLIP_RATIO * usual and abs(x[2] + expected_value) < FLIP_RESIDUAL * usual
+            is_flipped = residual[j] > FLIP_RATIO * usual and flipped_residual[j] < FLIP_RESIDUAL * usual
             if is_flipped and start <= offset + i + 2 < start + PIECE:
                 indices.append(offset + i + 2)
     return np.array(indices, dtype=np.int64)

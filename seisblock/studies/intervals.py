@@ -1,4 +1,4 @@
-"""Binomial confidence intervals of a share.
+"""Binomial confidence intervals of a share, and the effective size of a weighted sample.
 
 Quantiles are those of :mod:`scipy.special`: `scipy.stats`, which has both intervals, takes half a second to load and a thousand times as
 long per call.
@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
+from seisblock.core.typing import FloatArray
 
 CONFIDENCE = 0.95
 """Default confidence level."""
@@ -114,3 +115,8 @@ def _check_counts(count: int, runs: int, confidence: float) -> float:
             "an interval requires 0 <= `count` <= `runs` and at least one run, found {count} of {runs}", count=count, runs=runs
         )
     return checks.in_interval("the confidence", confidence, "(0, 1)")
+
+
+def effective_sample_size(weights: FloatArray) -> float:
+    """Return the effective sample size of some weights (Kish: squared sum over sum of squares); 0 if all are 0."""
+    return float(weights.sum() ** 2 / max(float((weights**2).sum()), 1e-300))

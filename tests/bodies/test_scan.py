@@ -486,6 +486,6 @@ def test_scan_with_a_reduced_hull_says_so_and_keeps_its_mass(tmp_path):
     write_stl(path, points, faces)
     scan = scan_body(path, density=1000.0)
     assert scan.body.mass == pytest.approx(1000.0 * hull.volume, rel=1e-6)
-    assert len(scan.body.hull) < scan.whole_hull
+    assert len(scan.body.hull) < scan.hull_vertices
     (message,) = (text for text in map(str, scan_qc_messages(scan)) if "convex hull" in text)
-    assert message.startswith(f"dome: {len(scan.body.hull)} of the {scan.whole_hull} vertices of the convex hull used")
+    assert message.startswith(f"dome: {len(scan.body.hull)} of the {scan.hull_vertices} vertices of the convex hull used")

@@ -16,7 +16,7 @@ PLANES_AT_ONCE = 500
 
 
 def hull_vertices(points: FloatArray) -> tuple[FloatArray, int]:
-    """Return the vertices of a convex hull, and how many the whole hull has: of a fine scan some that are within a tolerance of all.
+    """Return the vertices of a convex hull, of a fine one only as many as its tolerance requires, and the number of all.
 
     Parameters
     ----------
@@ -49,9 +49,9 @@ def hull_vertices(points: FloatArray) -> tuple[FloatArray, int]:
 
 def _farthest(corners: FloatArray, planes: FloatArray, tolerance: float) -> np.ndarray:
     """Return the numbers of the vertices farthest beyond each plane, of those beyond by more than the tolerance."""
-    found = []
+    indices = []
     for first in range(0, len(planes), PLANES_AT_ONCE):
         heights = corners @ planes[first : first + PLANES_AT_ONCE, :3].T + planes[first : first + PLANES_AT_ONCE, 3]
         numbers = np.argmax(heights, axis=0)
-        found.append(numbers[heights[numbers, np.arange(len(numbers))] > tolerance])
-    return np.unique(np.concatenate(found))
+        indices.append(numbers[heights[numbers, np.arange(len(numbers))] > tolerance])
+    return np.unique(np.concatenate(indices))

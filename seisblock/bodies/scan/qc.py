@@ -47,12 +47,12 @@ def scan_qc_messages(scan: Scan) -> Iterator[Message]:
             name=scan.body.name,
             count=scan.pieces,
         )
-    if len(scan.body.hull) < scan.whole_hull:
+    if len(scan.body.hull) < scan.hull_vertices:
         yield lazy_gettext(
-            "{name}: {count} of the {whole} vertices of the convex hull used; the others are within {distance:.2g} mm of it",
+            "{name}: {count} of the {total} vertices of the convex hull used; the others are within {distance:.2g} mm of it",
             name=scan.body.name,
             count=len(scan.body.hull),
-            whole=scan.whole_hull,
+            total=scan.hull_vertices,
             distance=1000.0 * HULL_TOLERANCE_SHARE * largest,
         )
     sharp_slenderness = min_slenderness(scan.body.with_wear(0.0))[0]

@@ -52,7 +52,7 @@ class Scan(DisplayMixin):
     source, sha256 : str
     unit, up : str
         Unit and upward axis of the file.
-    whole_hull : int
+    hull_vertices : int
         Number of vertices of the mesh's convex hull, of which a part is kept if there are many.
     """
 
@@ -72,7 +72,7 @@ class Scan(DisplayMixin):
     sha256: str
     unit: str
     up: str
-    whole_hull: int
+    hull_vertices: int
 
 
 def scan_body(
@@ -136,7 +136,7 @@ def scan_body(
     properties = mass_properties(mesh)
     mass = density * properties.volume
 
-    hull, whole = hull_vertices(mesh.vertices)
+    hull, hull_count = hull_vertices(mesh.vertices)
 
     def body_at_tolerance(tolerance_m: float, wear: EdgeWear) -> tuple[ScannedBody, float, int]:
         """Return the body for a tolerance, its levelling rotation and its number of support points."""
@@ -184,5 +184,5 @@ def scan_body(
         mesh.sha256,
         unit,
         up,
-        whole,
+        hull_count,
     )

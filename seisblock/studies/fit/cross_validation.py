@@ -8,9 +8,9 @@ import numpy as np
 
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.studies.fit.dataset import Experiment
-from seisblock.studies.fit.importance_sampling import ImportanceSample, effective_sample_size
+from seisblock.studies.fit.importance_sampling import ImportanceSample
 from seisblock.studies.fit.likelihood import LapseRate, log_likelihood, log_likelihoods_held_out
-from seisblock.studies.intervals import wilson_interval
+from seisblock.studies.intervals import effective_sample_size, wilson_interval
 
 CALIBRATION_BINS = (0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0)
 """Edges of the calibration bins, probability."""

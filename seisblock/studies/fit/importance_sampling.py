@@ -18,6 +18,7 @@ from seisblock.studies.fit.block_family import BlockFamily, quasi_random_points
 from seisblock.studies.fit.dataset import Experiment
 from seisblock.studies.fit.likelihood import LapseRate, log_likelihood, log_likelihoods_held_out
 from seisblock.studies.fit.simulate import SHARE_DENOMINATOR, outcome_shares
+from seisblock.studies.intervals import effective_sample_size
 
 CENTRE_COUNT = 100
 """Components of the mixture."""
@@ -145,11 +146,6 @@ class ImportanceSample:
         # a common shift cancels in normalised weights and prevents an underflow
         shifted: FloatArray = logs - logs.max()
         return shifted
-
-
-def effective_sample_size(weights: FloatArray) -> float:
-    """Return the effective sample size of some weights (Kish: squared sum over sum of squares)."""
-    return float(weights.sum() ** 2 / (weights**2).sum())
 
 
 def min_effective_without(sample: ImportanceSample, experiment: Experiment, parts: IntArray, lapse: LapseRate) -> float:

@@ -23,6 +23,7 @@ from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome
 from seisblock.models.rigid3d.solve import Body, validate_motion_and_body
 from seisblock.records import Motion
+from seisblock.studies.intervals import effective_sample_size
 from seisblock.studies.sampling import ParameterVariation, draw_samples, rigid3d_outcomes
 
 RUNS = 600
@@ -186,7 +187,7 @@ def infer_twist(
             weight *= math.exp(-0.5 * misfit * misfit)
         sample.append(TwistRun(scale, outcome.twist_deg, distance, outcome.overturned, weight))
     weights = np.array([run.weight for run in sample])
-    effective = float(weights.sum() ** 2 / max(float(np.square(weights).sum()), 1e-300))
+    effective = effective_sample_size(weights)
     # few effective runs, whose extremes are no bounds of that level, or none near the observed twist give no interval
     enough = effective >= 2.0 / (1.0 - level) - 1.0 and weights.max() > math.exp(-2.0)
     factors = np.array([run.scale for run in sample])
@@ -240,7 +241,7 @@ def _interval(values: FloatArray, weights: FloatArray, level: float) -> FactorIn
     """Return weighted median and bounds of equal tails, between which another value lies with the probability `level`."""
     order, shares = np.argsort(values), weights / weights.sum()
     # of n equal weights the k-th value has the position k / (n + 1): another value lies below it with this probability
-    effective = 1.0 / float(np.square(shares).sum())
+    effective = effective_sample_size(weights)
     centred = np.cumsum(shares[order]) - 0.5 * shares[order] - 0.5
     positions = 0.5 + centred * effective / (effective + 1.0)
     low, median, high = np.interp([0.5 - 0.5 * level, 0.5, 0.5 + 0.5 * level], positions, values[order]).tolist()
