@@ -17,9 +17,11 @@ from seisblock.bodies.factory import load_block
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.cli import main
 from seisblock.core.errors import KindError
+from seisblock.core.i18n import use_locale
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rigid3d.describe import describe
 from seisblock.models.rigid3d.options import Rigid3dOptions
+from seisblock.models.rigid3d.plot import figure
 from seisblock.report.text.assessment import assessment_lines
 from seisblock.studies.assessment import THREE_DIMENSIONS, assess_direction
 from seisblock.studies.azimuth_probability import AzimuthAverage
@@ -179,3 +181,12 @@ def test_text_of_a_sliding_body_has_no_round_off():
     assert 0.0 < abs(response.outcome.twist_deg) < 1e-9
     assert describe(response).endswith("twist 0 deg.")
     assert "largest tilt 0 deg" in describe(response)
+
+
+def test_figure_in_three_dimensions_is_whole_in_japanese():
+    """The verdict above the panels is translated, too: it was in English."""
+    response = solve_rigid3d(Block(0.2, 0.8, 0.2), shaking(8.0), mu=0.7)
+    assert response.outcome.overturned
+    with use_locale("ja"):
+        titles = [axis.get_title(loc=place) for axis in figure([response]).axes for place in ("left", "center")]
+    assert any("転倒" in title for title in titles) and not any("overturns" in title for title in titles)

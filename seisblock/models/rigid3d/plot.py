@@ -76,7 +76,7 @@ def figure(
     columns = history_columns(histories, motions, spans, 4, heights=(1.3, 1.0, 1.0, 1.0))
     chances = list(probabilities) or [None] * len(responses)
     for panels, name, response, chance in zip(columns, panel_labels(motions), responses, chances, strict=True):
-        lines = [f"{name}  {_object_text(response, gal=gal)}", f"{verdict(response, gal=gal)}"]
+        lines = [f"{name}  {_object_text(response, gal=gal)}", gettext(verdict(response, gal=gal))]
         if chance is not None:
             lines[0] += "  " + gettext("overturning probability {share}", share=format_share(chance))
         _draw_ground(panels[0], "\n".join(lines), response, gal=gal)
