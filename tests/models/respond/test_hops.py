@@ -15,7 +15,7 @@ from seisblock.models.respond.describe import describe
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
-from tests.models.respond.cases import SLENDER, at_lean, sequence, solve_case, still_ground
+from tests.models.respond.cases import SLENDER, at_lean, sequence, shaking, solve_case, still_ground
 
 
 def test_free_rocking_on_still_ground_decays_geometrically_to_rest():
@@ -102,6 +102,20 @@ def test_strong_noise_with_many_impacts_is_solved_to_the_end():
     assert outcome.end_s >= 30.0
     fates = respond_many([respond_params(Block(0.5, 1.0), options=RespondOptions(mu=0.8, restitution=0.7))], motion).require_complete()
     assert (fates.impacts[0], fates.end_s[0]) == (outcome.impacts, outcome.end_s)
+
+
+@pytest.mark.parametrize(
+    ("block", "mu", "seed", "peak"),
+    [
+        (Block(0.6875, 0.76171875, centroid_height=0.3094482421875), 1.125, 4507, 10.375),
+        (Block(2.25, 2.875, centroid_height=0.80859375), 1.457, 26400, 11.878),
+    ],
+)
+@pytest.mark.parametrize("restitution", [0.594, 0.599, 0.6, 0.6006])
+def test_bouncing_that_outlasts_the_load_of_a_corner_ends(block, mu, seed, peak, restitution):
+    """Hops of 1e-23 m while the load of a corner passes zero end: rebounds suppressed at one corner alone kept the other's alive."""
+    response = solve_respond(block, shaking(seed, peak, seconds=8.0, dt=0.02), sensitivity=False, mu=mu, restitution=restitution)
+    assert sequence(response.outcome)[-1] == "rest"
 
 
 def test_slide_longer_than_settle_s_ends_with_time_limit_status():
