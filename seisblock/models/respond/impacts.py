@@ -9,8 +9,8 @@ Rocking impact
     prescribed ratio r theta' is multiplied by r and the slip follows from friction; r is reduced where energy would grow.
 Rebounds
     Below SMALL_RATE = 1e-12 sqrt(g R) a rebound is suppressed where contact would persist, and a rocking body is set flat where it would
-    rest or slide. Where all other rates are of that order, too, the body is set flat. Lifts of 1e-21 R are neglected, and rest is reached
-    early by less than 1e-8 sqrt(R/g).
+    rest or slide or where its slip is of that order, too, as is a body whose other rates are of that order where a rebound is suppressed.
+    Lifts of 1e-21 R are neglected, and rest is reached early by less than 1e-8 sqrt(R/g).
     A rebound shorter than the resolution of time (1e-14 of the sampling interval) starts and ends in the same state, with a gap or tilt of
     exactly zero: its contact is closed. Round-off produces such rebounds where two limits coincide, for example at mu = b/h.
 Clattering
@@ -354,8 +354,8 @@ def rocking_impact(onto_right, y, f, p, has_tenon):
     y[LOSS] += loss
     if rate > 0.0:
         return lift_off(onto_right, rate, y, p)
-    # smallest rocking that counts: with a base that would rest or slide, the infinite sequence of impacts ends here
-    if abs(base_width * omega_after) < p[SMALL_RATE] and stays_flat(slip_after, f, p, has_tenon):
+    # smallest rocking that counts: at rest, or on a base that would rest or slide, the infinite sequence of impacts ends here
+    if abs(base_width * omega_after) < p[SMALL_RATE] and (abs(slip_after) < p[SMALL_RATE] or stays_flat(slip_after, f, p, has_tenon)):
         return _set_flat(omega_after, slip_after, y, f, p, has_tenon)
     if omega_after == 0.0:
         return continue_in_contact(True, True, NO_MODE, y, f, p, has_tenon)

@@ -118,6 +118,14 @@ def test_bouncing_that_outlasts_the_load_of_a_corner_ends(block, mu, seed, peak,
     assert sequence(response.outcome)[-1] == "rest"
 
 
+@pytest.mark.parametrize("mu", [0.187, 0.1875, 0.18751])
+def test_rocking_that_decays_beyond_the_load_of_a_corner_ends(mu):
+    """Ever smaller slide-rocking under a load that tips the flat body ends at its limit; below 1e-17 m/s it was not resolved in time."""
+    block = Block(0.625, 1.75, centroid_height=1.3125, centroid_offset=-0.09765625)
+    response = solve_respond(block, shaking(92985, 8.7498909, seconds=8.0, dt=0.005), sensitivity=False, mu=mu, restitution=0.05)
+    assert sequence(response.outcome)[-1] == "rest"
+
+
 def test_slide_longer_than_settle_s_ends_with_time_limit_status():
     """A slide that lasts longer than `settle_s` ends with a status and a sentence; a longer time ends it."""
     start = (0.0, 0.25, 0.0, 1.0, 0.0, 0.0)
