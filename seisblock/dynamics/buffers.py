@@ -29,7 +29,7 @@ class Forcing(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """Sizes of a model: scratch rows, guards, tracked states, order, 1 if parameters end in size floors, exact guards."""
+    """Sizes of a model: scratch rows, guards, tracked states, order; 1 if it has size floors; exact guards; 1 if ``skip`` propagates."""
 
     scratch: int
     guards: int
@@ -37,6 +37,7 @@ class Shape(NamedTuple):
     order: int
     has_floors: int
     sharp: int
+    propagates: int
 
 
 class State(NamedTuple):
@@ -128,7 +129,7 @@ class BatchState(NamedTuple):
 
 
 FORCING = _t.NamedTuple((READ_ONLY_MATRIX, VECTOR, _t.float64), Forcing)
-SHAPE = _t.NamedUniTuple(_t.int64, 6, Shape)
+SHAPE = _t.NamedUniTuple(_t.int64, 7, Shape)
 STATE = _t.NamedTuple((INTEGERS, VECTOR, VECTOR), State)
 OUTPUT = _t.NamedTuple((MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE, MATRIX), Output)
 SCRATCH = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR, VECTOR), Scratch)

@@ -191,8 +191,8 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             status = PAUSED
             break
         # at rest: let the model look ahead for the first sample at which the motion can begin
-        if tau == 0.0 and at_rest:
-            next_sample = skip(mode, acceleration, gains, sample, p)
+        if tau == 0.0 and (at_rest or shape.propagates != 0):
+            next_sample = skip(mode, acceleration, gains, sample, p, y, extrema, c, (segment_start + sample) * dt)
             if next_sample > sample:
                 if stores_path:
                     for row in range(sample + 1, next_sample + 1):
@@ -200,6 +200,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 # skipped samples count against the slice, so that a long record at rest can still be interrupted
                 steps_left -= 1 + (next_sample - sample) // SKIPPED_PER_STEP
                 sample = next_sample
+                n_simultaneous = 0
                 continue
         read_forcing(forcing, sample, tau, f)
         min_steps_left = steps_left - MAX_STEPS_PER_SAMPLE

@@ -42,6 +42,8 @@ class Model:
         Number of leading guards that are states set to exact values; small initial values of these are not treated as round-off.
     stride : compiled function or None
         Function with the signature ``STRIDE`` that advances many trajectories in parallel between events.
+    propagates : bool
+        True if ``skip`` also advances moving states from sample to sample.
     """
 
     name: str
@@ -57,6 +59,7 @@ class Model:
     has_floors: bool = False
     sharp: int = 0
     stride: Callable[..., Any] | None = None
+    propagates: bool = False
 
     @cached_property
     def pointers(self) -> tuple[Any, Any, Any]:
@@ -76,4 +79,4 @@ class Model:
     @cached_property
     def shape(self) -> Shape:
         """Sizes of the model for the engine."""
-        return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.has_floors), self.sharp)
+        return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.has_floors), self.sharp, int(self.propagates))

@@ -30,7 +30,7 @@ def test_uplift_of_100_s_record(benchmark):
 
 
 def test_uplift_many_of_60_s(benchmark):
-    """Sixteen blocks side by side take no longer than one after another: three integrations of 1.5 microseconds per sample each."""
+    """Sixteen blocks side by side take no longer than one after another: two integrations and a linear one."""
     bodies = [SpringBlock.from_frequency(0.6, 0.6, 1.2 + 0.05 * n, frequency_vertical=10.0, beta=0.707) for n in range(16)]
     motion = shaking(60.0, 0.01)
     result = benchmark(uplift_many, bodies, motion)

@@ -15,6 +15,7 @@ from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.models.slide import model as slide
 from seisblock.models.slide.solve import solve_slide
 from seisblock.models.uplift import model as uplift
+from seisblock.models.uplift.constants import ALL_CORNERS
 from seisblock.records import Motion
 from seisblock.studies.sliding import slide_study
 
@@ -55,7 +56,7 @@ def rows_of(name):
     if name == "uplift":
         bodies = springs()
         starts = np.array([uplift.static_state(body, G) for body in bodies])
-        return uplift.UPLIFT, uplift.UPLIFT, [uplift.parameters(body, G) for body in bodies], starts, uplift.ALL_CORNERS
+        return uplift.UPLIFT, uplift.UPLIFT, uplift.parameters(bodies, G, 0.01), starts, ALL_CORNERS
     stones = [load_two_layer("chozusha")] * 3
     p = [rocking.rocking_parameters(stone, G, "both") for stone in stones]
     return rocking.ROCKING_MODEL, rocking.ROCKING_MODEL, p, np.zeros(2), rocking.REST

@@ -12,7 +12,8 @@ from seisblock.bodies.spring_block import CORNER_SIGNS, SpringBlock
 from seisblock.core.i18n import N_, gettext, join_list
 from seisblock.core.results import Phase, Response
 from seisblock.core.typing import FloatArray
-from seisblock.models.uplift.model import ALL_CORNERS, contact_name
+from seisblock.models.uplift.constants import ALL_CORNERS
+from seisblock.models.uplift.model import contact_name
 from seisblock.models.uplift.outcome import UpliftOutcome
 from seisblock.models.uplift.plot import LIFTED_COLOUR, motion_interval
 from seisblock.output.animation.animation import Animation, Line, Strip, ground_strip, sample_at

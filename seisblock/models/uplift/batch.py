@@ -13,7 +13,8 @@ from seisblock.core.typing import ArrayLike
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate_many
 from seisblock.models.uplift.batch_results import UpliftBatchResult, batch_end_states, batch_result
-from seisblock.models.uplift.model import ALL_CORNERS, FIRST, GLUED, UPLIFT, UPLIFT_REPEAT, parameters, static_state
+from seisblock.models.uplift.constants import ALL_CORNERS, FIRST, GLUED
+from seisblock.models.uplift.model import UPLIFT, UPLIFT_REPEAT, parameters, static_state
 from seisblock.records._validation import validate_motion
 from seisblock.records.motion import Motion
 
@@ -56,10 +57,8 @@ def uplift_many(
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
     runs = max(len(bodies), len(rows))
     all_bodies = list(bodies) * runs if len(bodies) == 1 else list(bodies)
-    p, initial_states = (
-        np.array([parameters(body, gravity) for body in all_bodies]),
-        np.array([static_state(body, gravity) for body in all_bodies]),
-    )
+    p, initial_states = parameters(bodies, gravity, motion.dt), np.array([static_state(body, gravity) for body in all_bodies])
+    p = np.repeat(p, runs, axis=0) if len(bodies) == 1 else p
     ensemble = integrate_many(UPLIFT, motion, p, initial_states, ALL_CORNERS, gains=rows, allow_failures=True)
     gave_up, linear, repeat = ensemble.failed.copy(), ensemble.extrema.copy(), ensemble.extrema.copy()
     lifted = np.flatnonzero(ensemble.final[:, FIRST] > 0.0)

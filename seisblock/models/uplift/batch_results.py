@@ -13,7 +13,7 @@ from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.dynamics import Ensemble, Trajectory
 from seisblock.dynamics.buffers import TOTAL
-from seisblock.models.uplift.model import ALL_CORNERS, CHANGES, FIRST, TURN_X, TURN_Y, F, U
+from seisblock.models.uplift.constants import ALL_CORNERS, CHANGES, FIRST, TURN_X, TURN_Y, F, U
 
 MAX_LEAN_RATIO = 0.1
 """Largest ratio of tilt to overturning angle at which neglecting the P-delta effect is acceptable."""

@@ -16,6 +16,7 @@ State
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,80 +26,68 @@ from seisblock.bodies.spring_block import CORNER_SIGNS, SpringBlock
 from seisblock.core.typing import FloatArray
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.model_api import OFF, RESET, SERIES
-
-ALL_CORNERS, GLUED = 15, 31
-"""All four corners in contact; linear system without uplift."""
+from seisblock.models.uplift.constants import (
+    ALL_CORNERS,
+    CHANGES,
+    CZ,
+    FIRST,
+    GAMMA,
+    GLUED,
+    GRAVITY,
+    JX,
+    JY,
+    KZ,
+    N_STATES,
+    TRACKED,
+    TURN_X,
+    TURN_Y,
+    VX,
+    VY,
+    F,
+    U,
+    W,
+    X,
+    Y,
+)
+from seisblock.models.uplift.propagator import coordinates, propagate, propagators, restoring
 
 ORDER = 20
 """Order of the series. The highest rocking frequency requires more than the engine's default of 12: for a vertical frequency of 10 Hz and a
-sampling interval of 0.01 s, order 20 takes 1.4 us per sample, 12 takes 2.2 us and 28 takes 2.0 us. An exact matrix exponential per contact
-state takes 0.1 us where no corner can open or close, but 14 % of the samples (91 % at 50 Hz) need the series for their interior."""
-
-U, F, TURN_X, TURN_Y, X, Y, W, VX, VY, CHANGES, FIRST = 0, 4, 8, 9, 10, 11, 12, 16, 17, 18, 19
-"""First of four corner displacements, first of four forces, b theta_x, b theta_y, x, y, first of four rates, rates of x and y, counts."""
-
-N_STATES, TRACKED = 20, 10
+sampling interval of 0.01 s, order 20 takes two thirds of the time of 12 and of 28."""
 
 CROSSING_TOLERANCE = 1e-12
 """Distance of a corner from its spring over the static settlement below which corners open or close together."""
-
-ALPHA, GAMMA, KX, KY, KZ, CX, CY, CZ, JX, JY, GRAVITY = range(11)
-"""Ratios H/b and a/b; 4 kx/m, 4 ky/m, kz/m, 1/s^2; the dashpots likewise, 1/s; moments of inertia over m b^2; gravity, m/s^2."""
 
 
 @kernel(SERIES)
 def _series(mode, y, f, p, order, c, g):
     """Write the series of corners and centre of gravity, [Okumura1987]_ eq. (1) with the springs in contact; return the degree."""
-    alpha = p[ALPHA]
-    gamma = p[GAMMA]
-    for i in range(4):
-        c[U + i, 0] = y[U + i]
-        c[W + i, 0] = y[W + i]
-    c[X, 0] = y[X]
-    c[Y, 0] = y[Y]
-    c[VX, 0] = y[VX]
-    c[VY, 0] = y[VY]
+    closed, half_gamma, kz, cz = mode & ALL_CORNERS, 0.5 * p[GAMMA], p[KZ], p[CZ]
+    z, b, a, x, y_k, z_rate, b_rate, a_rate, x_rate, y_rate = coordinates(y, p)
+    per_jx, per_jy = 1.0 / p[JX], 1.0 / p[JY]
     c[CHANGES, 1] = c[FIRST, 1] = OFF
     for k in range(order + 1):
         for i in range(4):
+            # each corner follows from the rigid motion of the base; the four stay compatible at every order
+            sx, sy = half_gamma if i < 2 else -half_gamma, 0.5 if i % 2 == 0 else -0.5
+            u, w = z - sx * b + sy * a, z_rate - sx * b_rate + sy * a_rate
+            if k == 0:
+                # a reset leaves corners at exactly zero
+                u, w = y[U + i], y[W + i]
             # unilateral in the vertical direction only: an open corner keeps its horizontal spring
-            c[F + i, k] = -(p[KZ] * c[U + i, k] + p[CZ] * c[W + i, k]) if (mode >> i) & 1 else 0.0
-        # b theta_x, b theta_y and their rates from the corners (+,+), (+,-), (-,+), (-,-), as sums of differences, which are
-        # exactly zero for equal corner motions
-        turn_x = 0.5 * ((c[U, k] - c[U + 1, k]) + (c[U + 2, k] - c[U + 3, k]))
-        turn_y = -0.5 * ((c[U, k] - c[U + 2, k]) + (c[U + 1, k] - c[U + 3, k])) / gamma
-        c[TURN_X, k] = turn_x
-        c[TURN_Y, k] = turn_y
-        if k == order:
-            break
-        rate_x = 0.5 * ((c[W, k] - c[W + 1, k]) + (c[W + 2, k] - c[W + 3, k]))
-        rate_y = -0.5 * ((c[W, k] - c[W + 2, k]) + (c[W + 1, k] - c[W + 3, k])) / gamma
-        # the springs attach at the base, half a height below the centre of gravity: [Okumura1987]_ eq. (1), its
-        # second line corrected to y + (H/2) theta_x
-        push_x = -p[KX] * (c[X, k] - 0.5 * alpha * turn_y) - p[CX] * (c[VX, k] - 0.5 * alpha * rate_y)
-        push_y = -p[KY] * (c[Y, k] + 0.5 * alpha * turn_x) - p[CY] * (c[VY, k] + 0.5 * alpha * rate_x)
-        lift = c[F, k] + c[F + 1, k] + c[F + 2, k] + c[F + 3, k]
-        moment_x = 0.5 * ((c[F, k] - c[F + 1, k]) + (c[F + 2, k] - c[F + 3, k])) + 0.5 * alpha * push_y
-        moment_y = -0.5 * gamma * ((c[F, k] - c[F + 2, k]) + (c[F + 1, k] - c[F + 3, k])) - 0.5 * alpha * push_x
+            c[U + i, k], c[W + i, k], c[F + i, k] = u, w, -(kz * u + cz * w) if (closed >> i) & 1 else 0.0
+        c[TURN_Y, k], c[TURN_X, k], c[X, k], c[Y, k], c[VX, k], c[VY, k] = b, a, x, y_k, x_rate, y_rate
+        step = 1.0 / (k + 1)
+        z_next, b_next, a_next, x_next, y_next = restoring(
+            p, per_jx, per_jy, closed, z, b, a, x, y_k, z_rate, b_rate, a_rate, x_rate, y_rate
+        )
+        z, b, a, x, y_k = z_rate * step, b_rate * step, a_rate * step, x_rate * step, y_rate * step
         # constants enter the series at order 0, the linear ground motion at orders 0 and 1
         if k == 0:
-            lift -= p[GRAVITY]
-        step = 1.0 / (k + 1)
-        c[X, k + 1] = c[VX, k] * step
-        c[Y, k + 1] = c[VY, k] * step
-        c[VX, k + 1] = (push_x - f[0, k] if k < 2 else push_x) * step
-        c[VY, k + 1] = (push_y - f[1, k] if k < 2 else push_y) * step
+            z_next -= p[GRAVITY]
         if k < 2:
-            lift -= f[2, k]
-        lean_x = 0.5 * moment_x / p[JX]
-        lean_y = 0.5 * gamma * moment_y / p[JY]
-        for i in range(4):
-            c[U + i, k + 1] = c[W + i, k] * step
-        # each corner follows from the rigid motion of the base; the four stay compatible at every order
-        c[W, k + 1] = (lift + lean_x - lean_y) * step
-        c[W + 1, k + 1] = (lift - lean_x - lean_y) * step
-        c[W + 2, k + 1] = (lift + lean_x + lean_y) * step
-        c[W + 3, k + 1] = (lift - lean_x + lean_y) * step
+            z_next, x_next, y_next = z_next - f[2, k], x_next - f[0, k], y_next - f[1, k]
+        z_rate, b_rate, a_rate, x_rate, y_rate = z_next * step, b_next * step, a_next * step, x_next * step, y_next * step
     # bonded base: the linear run has no event, and its extrema scale with the motion
     if mode == GLUED:
         for i in range(4):
@@ -158,7 +147,9 @@ UPLIFT = Model(
     (*(contact_name(mode) for mode in range(ALL_CORNERS + 1)), *("",) * (GLUED - ALL_CORNERS - 1), "glued"),
     tracked=TRACKED,
     order=ORDER,
+    skip=propagate,
     has_floors=True,
+    propagates=True,
 )
 
 
@@ -166,34 +157,24 @@ UPLIFT_REPEAT = replace(UPLIFT, order=ORDER - 3)
 """Same model with different round-off, to detect results that round-off decides."""
 
 
-def parameters(body: SpringBlock, gravity: float) -> FloatArray:
-    """Return the parameter vector of the model ([Okumura1987]_); corner dashpots c = 2 zeta k / omega by direction (derived here).
+def parameters(bodies: Sequence[SpringBlock], gravity: float, dt: float) -> FloatArray:
+    """Return the parameters of the model, one row per body ([Okumura1987]_); dashpots c = 2 zeta k / omega by direction (derived here).
 
-    Appended are the minimum magnitudes ("floors") of the states in the convergence test, from the static settlement.
+    Appended are the propagators for samples `dt` apart, and the minimum magnitudes ("floors") of the states in the convergence test, from
+    the static settlement.
     """
-    wx, wy, wz = body.omega
-    two_zeta = 2.0 * body.damping
+    rows = []
+    for body in bodies:
+        wx, wy, wz = body.omega
+        two_zeta = 2.0 * body.damping
+        damping = two_zeta * wx, two_zeta * wy, two_zeta * wz / 4.0
+        rows.append([body.alpha, body.gamma, wx * wx, wy * wy, wz * wz / 4.0, *damping, body.inertia[0], body.inertia[1], gravity])
     # vibrations decay to round-off beside the static settlement; without floors their series would demand ever
     # smaller steps
-    floors = np.full(N_STATES, body.static_settlement(gravity))
-    floors[F : F + 4] = gravity / 4.0
-    floors[W : VY + 1] *= wz
-    return np.array(
-        [
-            body.alpha,
-            body.gamma,
-            wx * wx,
-            wy * wy,
-            wz * wz / 4.0,
-            two_zeta * wx,
-            two_zeta * wy,
-            two_zeta * wz / 4.0,
-            body.inertia[0],
-            body.inertia[1],
-            gravity,
-            *floors,
-        ]
-    )
+    floors = np.repeat(np.array([[body.static_settlement(gravity)] for body in bodies]), N_STATES, axis=1)
+    floors[:, F : F + 4] = gravity / 4.0
+    floors[:, W : VY + 1] *= np.array([[body.omega[2]] for body in bodies])
+    return np.hstack([np.array(rows), propagators(bodies, dt), floors])
 
 
 def static_state(body: SpringBlock, gravity: float) -> FloatArray:

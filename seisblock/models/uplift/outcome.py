@@ -15,7 +15,8 @@ from seisblock.core.results import Event, LazySequence, Phase, make_phases
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.dynamics import EventLog, Trajectory
 from seisblock.models.uplift.batch_results import MAX_LEAN_RATIO, UpliftBatchResult
-from seisblock.models.uplift.model import ALL_CORNERS, F, U, contact_name
+from seisblock.models.uplift.constants import ALL_CORNERS, F, U
+from seisblock.models.uplift.model import contact_name
 from seisblock.models.uplift.modes import natural_modes
 from seisblock.records.motion import Motion
 

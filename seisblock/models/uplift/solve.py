@@ -12,7 +12,8 @@ from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Response, Status
 from seisblock.dynamics import Trajectory, integrate
 from seisblock.models.uplift.batch_results import batch_result, end_states
-from seisblock.models.uplift.model import ALL_CORNERS, FIRST, GLUED, UPLIFT, UPLIFT_REPEAT, F, U, X, Y, parameters, rotations, static_state
+from seisblock.models.uplift.constants import ALL_CORNERS, FIRST, GLUED, F, U, X, Y
+from seisblock.models.uplift.model import UPLIFT, UPLIFT_REPEAT, parameters, rotations, static_state
 from seisblock.models.uplift.options import UpliftOptions
 from seisblock.models.uplift.outcome import UpliftOutcome, build_outcome, events, phases, warnings
 from seisblock.records._validation import validate_inputs, vertical_gain
@@ -58,7 +59,7 @@ def solve_uplift(body: SpringBlock, motion: Motion, options: UpliftOptions) -> R
     """
     validate_inputs(body, SpringBlock, motion)
     gravity, gains = options.gravity, (1.0, 1.0, vertical_gain(motion, options.vertical))
-    p, start = parameters(body, gravity), static_state(body, gravity)
+    p, start = parameters([body], gravity, motion.dt)[0], static_state(body, gravity)
     trajectory = integrate(UPLIFT, motion, p, start, ALL_CORNERS, gains=gains)
     linear = repeat = trajectory
     # the same run with another round-off shows whether round-off decides the result
