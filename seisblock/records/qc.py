@@ -218,9 +218,10 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
     step_out = np.where(ends < a.size - 1, np.abs(a[ends] - a[np.minimum(ends + 1, a.size - 1)]), 0.0)
     # clipped: at an extreme of the record, entered and left by steep steps
     at_extreme = np.isin(a[starts], (a.max(), a.min()))
-    unit = _resolution(a)
     lengths = ends - starts
-    edge = np.minimum(step_in, step_out)
+    edge, edges = np.minimum(step_in, step_out), np.maximum(step_in, step_out)
+    # the resolution matters at steep edges and at long peaks only
+    unit = _resolution(a) if (edges > EDGE_RATIO * peak).any() or (at_extreme & (lengths >= LONG_FLAT_SAMPLES - 1)).any() else 0.0
     is_steep = edge > max(EDGE_RATIO * peak, EDGE_UNITS * unit)
     is_long = (lengths >= LONG_FLAT_SAMPLES - 1) & (edge > EDGE_UNITS * unit)
     is_clipped = at_extreme & ((is_steep & (np.abs(a[starts]) > 0.5 * peak)) | (is_long & (np.abs(a[starts]) > OFFSET_RATIO * peak)))
@@ -235,7 +236,6 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
             times=_format_times(starts[is_clipped], dt),
         )
         yield QCFlag("clipped", text, code)
-    edges = np.maximum(step_in, step_out)
     # coarse samples stay constant for a while by themselves: steps of few units of the resolution are no edge, unless the run is long
     is_long_hold = (lengths >= LONG_HOLD_SAMPLES) & (unit < EDGE_RATIO * peak)
     is_edge = (edges > EDGE_RATIO * peak) & ((edges > EDGE_UNITS * unit) | is_long_hold)

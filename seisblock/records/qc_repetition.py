@@ -24,7 +24,8 @@ PERIODIC_SHARE = 0.5
 """Share of repeated windows that occur at least three times beyond which a motion is periodic."""
 
 _BASE, _MIXER = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9)
-_CHUNK = 2**14
+_ANCHORS, _ANCHOR_BASE = 9, np.uint32(0x85EBCA6B)
+_CHUNK, _TABLE = 2**14, 2**18
 
 
 class Repetition(NamedTuple):
@@ -50,8 +51,10 @@ def find_repetitions(acceleration: FloatArray) -> list[Repetition]:
 
     Notes
     -----
-    Windows of 20 samples are hashed, and equal hashes verified. JMA announced on 2015-12-04 that very short pieces of some published
-    records were overwritten by samples 2 s later.
+    Each window of 20 samples is represented by the smallest hash of the nine runs of 12 samples in it, as in winnowing (Schleimer,
+    Wilkerson and Aiken, 2003): equal windows have equal representatives. Only windows whose representative occurs elsewhere are hashed
+    themselves, and equal hashes verified. JMA announced on 2015-12-04 that very short pieces of some published records were overwritten by
+    samples 2 s later.
     """
     repetitions: list[Repetition] = []
     for begin in range(0, max(acceleration.size - WINDOW, 1), qc_spikes.BLOCK):
@@ -63,48 +66,77 @@ def find_repetitions(acceleration: FloatArray) -> list[Repetition]:
 def _find_in_block(a: FloatArray) -> list[Repetition]:
     if a.size < 2 * WINDOW:
         return []
-    hashes = _hash_windows(a)
-    ordered = np.sort(hashes)
-    repeated = ordered[1:][ordered[1:] == ordered[:-1]]
-    if not repeated.size:
+    windows = _find_candidates(a)
+    if not windows.size:
         return []
-    # only windows that occur several times are kept in order of time, which takes longer than sorting
-    values = np.unique(repeated)
-    members = np.flatnonzero(values[np.searchsorted(values, hashes).clip(max=values.size - 1)] == hashes)
-    order = members[np.argsort(hashes[members], kind="stable")]
-    same = np.flatnonzero(hashes[order[1:]] == hashes[order[:-1]])
+    hashes = _hash_windows(a, windows)
+    order = np.argsort(hashes, kind="stable")
+    windows, hashes = windows[order], hashes[order]
+    same = np.flatnonzero(hashes[1:] == hashes[:-1])
     # occurrences of one hash are adjacent and in order of time
-    starts, seconds = order[same], order[same + 1]
+    starts, seconds = windows[same], windows[same + 1]
     keep = _is_informative(a, starts)
     starts, seconds = starts[keep], seconds[keep]
-    if not starts.size or _is_periodic(ordered, hashes[starts]):
+    if not starts.size or _is_periodic(hashes, hashes[same[keep]]):
         return []
     by_time = np.argsort(seconds, kind="stable")
     return _merge_windows(a, starts[by_time], seconds[by_time])
 
 
-def _hash_windows(a: FloatArray) -> NDArray[np.uint64]:
-    """Return a hash of each window of samples, (n - WINDOW + 1,)."""
+def _find_candidates(a: FloatArray) -> IntArray:
+    """Return the first samples of the windows whose representative occurs elsewhere, too, in order of time."""
+    firsts, representatives = [], []
+    for begin in range(0, a.size - WINDOW + 1, qc_spikes.PIECE):
+        smallest = _smallest_anchors(a[begin : begin + qc_spikes.PIECE + WINDOW - 1])
+        # successive windows with one representative contain the same anchor
+        changes = np.append(0, 1 + np.flatnonzero(smallest[1:] != smallest[:-1]))
+        firsts.append(changes + begin)
+        representatives.append(smallest[changes])
+    runs, values = np.concatenate(firsts), np.concatenate(representatives)
+    ordered = np.sort(values)
+    repeated = ordered[1:][ordered[1:] == ordered[:-1]]
+    if not repeated.size:
+        return runs[:0]
+    # a table of the last bits excludes most others sooner than a search does
+    table = np.zeros(_TABLE, dtype=np.bool_)
+    table[repeated % _TABLE] = True
+    found = np.flatnonzero(table[values % _TABLE])
+    found = found[repeated[np.searchsorted(repeated, values[found]).clip(max=repeated.size - 1)] == values[found]]
+    starts, ends = runs[found], np.append(runs[1:], a.size - WINDOW + 1)[found]
+    # windows further inside a run consist of the values of an anchor that overlaps itself: nine at most, too few to be looked at
+    is_long = ends - starts > 2 * _ANCHORS
+    starts, ends = np.append(starts, ends[is_long] - _ANCHORS), np.append(np.where(is_long, starts + _ANCHORS, ends), ends[is_long])
+    lengths = ends - starts
+    return np.sort(np.repeat(starts - np.cumsum(lengths) + lengths, lengths) + np.arange(lengths.sum()))
+
+
+def _smallest_anchors(a: FloatArray) -> NDArray[np.uint32]:
+    """Return the smallest hash among the nine anchors of each window, runs of 12 samples, (n - WINDOW + 1,)."""
     with np.errstate(over="ignore"):
-        # + 0.0 turns -0.0 into 0.0; the multiplications spread the bits of numbers with few digits
-        hashes = (a + 0.0).view(np.uint64)
-        hashes *= _BASE
-        hashes ^= hashes >> np.uint64(29)
-        hashes *= _MIXER
-        # polynomial in _BASE of 1, 2, 4, ... samples, each from two halves; those whose lengths add up to WINDOW are joined
-        result, length, total, power = hashes[:0], 1, 0, _BASE
-        while length <= WINDOW:
-            if WINDOW & length:
-                result = hashes if total == 0 else hashes[:-total] * _power(total) + result[length:]
-                total += length
-            doubled = hashes[:-length] * power
-            doubled += hashes[length:]
-            hashes, length, power = doubled, 2 * length, power * power
-    return result
+        # without the bit of the sign, in which 0.0 and -0.0 differ
+        hashes = ((a.view(np.uint64) * _BASE) >> np.uint64(31)).astype(np.uint32)
+        two = hashes[:-1] * _ANCHOR_BASE + hashes[1:]
+        four = two[:-2] * _ANCHOR_BASE**2 + two[2:]
+        eight = four[:-4] * _ANCHOR_BASE**4 + four[4:]
+        smallest = eight[:-4] * _ANCHOR_BASE**4 + four[8:]
+    for shift in (1, 2, 4, 1):
+        smallest = np.minimum(smallest[:-shift], smallest[shift:])
+    return smallest
 
 
-def _power(exponent: int) -> np.uint64:
-    return np.uint64(pow(int(_BASE), exponent, 2**64))
+def _hash_windows(a: FloatArray, windows: IntArray) -> NDArray[np.uint64]:
+    """Return a hash of each of the windows that begin at the given samples, (m,)."""
+    hashes = np.empty(windows.size, dtype=np.uint64)
+    with np.errstate(over="ignore"):
+        powers = np.cumprod(np.full(WINDOW, _BASE))
+        for first in range(0, windows.size, _CHUNK):
+            # + 0.0 turns -0.0 into 0.0; the multiplications spread the bits of numbers with few digits
+            rows = (sliding_window_view(a, WINDOW)[windows[first : first + _CHUNK]] + 0.0).view(np.uint64)
+            rows *= _BASE
+            rows ^= rows >> np.uint64(29)
+            rows *= _MIXER
+            hashes[first : first + _CHUNK] = rows @ powers
+    return hashes
 
 
 def _is_informative(a: FloatArray, starts: IntArray) -> NDArray[np.bool_]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
-from seisblock.core.typing import FloatArray, IntArray
+from seisblock.core.typing import BoolArray, FloatArray, IntArray
 
 NEIGHBOUR_STEPS, EXCLUDED_STEPS = 10, 2
 """Number of steps on each side that define the background, and of the nearest steps excluded from it."""
@@ -59,13 +58,20 @@ def find_spikes_and_jumps(acceleration: FloatArray) -> tuple[IntArray, IntArray]
         piece = acceleration[offset : start + PIECE + 2 * _MARGIN]
         if piece.size < 2 * _MARGIN + 5:
             continue
+        step = np.diff(piece)
+        size = np.abs(step)
+        # a deviation is at most twice the largest step
+        if 2.0 * size.max() <= MIN_SURPRISE:
+            continue
         # candidates near the overlap are found twice; each block reports its own samples only
         block = range(start - offset, min(start + PIECE, acceleration.size) - offset)
-        step = np.diff(piece)
-        lone = {s for s in _find_spikes(step) if s in block}
+        limit = STEEPNESS_RATIO * size
+        is_steeper_than_left, is_steeper_than_right = size[1:] > limit[:-1], size[:-1] > limit[1:]
+        lone = {s for s in _find_spikes(step, is_steeper_than_left, is_steeper_than_right) if s in block}
         spikes += [s + offset for s in lone]
         # a spike is a jump and a jump back, and reported as a spike only
-        jumps += [j + offset for j in _find_jumps(step) if j in block and not lone & {j - 2, j - 1, j, j + 1}]
+        found = _find_jumps(step, is_steeper_than_left, is_steeper_than_right)
+        jumps += [j + offset for j in found if j in block and not lone & {j - 2, j - 1, j, j + 1}]
     return np.array(sorted(spikes), dtype=np.int64), np.array(sorted(jumps), dtype=np.int64)
 
 
@@ -81,43 +87,44 @@ def _find_end_spikes(acceleration: FloatArray) -> list[int]:
     return indices
 
 
-def _find_spikes(step: FloatArray) -> Iterator[int]:
-    """Yield indices of isolated samples; step k leads from sample k to k + 1."""
+def _find_spikes(step: FloatArray, is_steeper_than_left: BoolArray, is_steeper_than_right: BoolArray) -> list[int]:
+    """Return indices of isolated samples; step k leads from sample k to k + 1."""
+    # the rise is steeper than the step before it, the fall than the step after it; without the second and the last but one sample, which
+    # are artefacts of corrected records, whose ends are differentiated or filtered
+    i = 1 + np.flatnonzero(is_steeper_than_left[:-2] & is_steeper_than_right[2:])
+    before, rise, fall, after = (step[i + k] for k in (-1, 0, 1, 2))
+    # a spike is a rise and a fall of similar size, both steeper than the adjacent steps
+    smaller = np.minimum(np.abs(rise), np.abs(fall))
+    is_similar = (rise * fall < 0.0) & (np.abs(rise + fall) < SPIKE_ASYMMETRY * smaller)
+    i = i[is_similar & (smaller > STEEPNESS_RATIO * np.maximum(np.abs(before), np.abs(after)))]
     # half the difference of two successive steps is the distance of a sample from the mean of its neighbours
-    for i in _find_outliers(0.5 * np.abs(np.diff(step))):
-        # a spike is a rise and a fall of similar size, both steeper than the adjacent steps
-        rise, fall = step[i], step[i + 1]
-        adjacent = max(abs(step[i - 1]) if i > 0 else 0.0, abs(step[i + 2]) if i + 2 < step.size else 0.0)
-        smaller = min(abs(rise), abs(fall))
-        # the second and the last but one sample: artefacts of corrected records, whose ends are differentiated or filtered
-        is_inner = 1 < i + 1 < step.size - 1
-        if is_inner and rise * fall < 0.0 and abs(rise + fall) < SPIKE_ASYMMETRY * smaller and smaller > STEEPNESS_RATIO * adjacent:
-            yield i + 1
+    return [k + 1 for k in _select_outliers(i, step.size - 1, lambda k: 0.5 * np.abs(step[k + 1] - step[k]))]
 
 
-def _find_jumps(step: FloatArray) -> Iterator[int]:
-    """Yield indices of the first samples after isolated steps."""
-    for i in _find_outliers(np.abs(step[1:-1] - 0.5 * (step[:-2] + step[2:]))):
-        k = i + 1
-        # an isolated step stands alone; in shaking of high frequency its neighbours are as steep
-        if abs(step[k]) > STEEPNESS_RATIO * max(abs(step[k - 1]), abs(step[k + 1])):
-            yield k + 1
+def _find_jumps(step: FloatArray, is_steeper_than_left: BoolArray, is_steeper_than_right: BoolArray) -> list[int]:
+    """Return indices of the first samples after isolated steps."""
+    # an isolated step stands alone; in shaking of high frequency its neighbours are as steep
+    i = np.flatnonzero(is_steeper_than_left[:-1] & is_steeper_than_right[1:])
+    return [k + 2 for k in _select_outliers(i, step.size - 2, lambda k: np.abs(step[k + 1] - 0.5 * (step[k] + step[k + 2])))]
 
 
-def _find_outliers(surprise: FloatArray) -> list[int]:
-    """Return indices where a deviation is the local maximum and far above the background on both sides."""
-    padded = np.pad(surprise, _MARGIN)  # zeros beyond the ends: the background of the other side decides
-    total = np.concatenate(([0.0], np.cumsum(padded)))
-    mean = (total[2 * _MARGIN + 1 :] - total[: -2 * _MARGIN - 1]) / (2 * _MARGIN + 1)
+def _select_outliers(i: IntArray, count: int, deviation: Callable[[IntArray], FloatArray]) -> list[int]:
+    """Return the indices at which the deviation is the local maximum and far above the background on both sides."""
+
+    def padded(k: IntArray) -> FloatArray:
+        # zeros beyond the ends: the background of the other side decides
+        return np.where((k >= 0) & (k < count), deviation(k.clip(0, count - 1)), 0.0)
+
+    i = i[deviation(i) > MIN_SURPRISE]
+    for shift in (*range(-EXCLUDED_STEPS, 0), *range(1, EXCLUDED_STEPS + 1)):
+        i = i[deviation(i) >= padded(i + shift)]
+    windows = padded(i[:, None] + np.arange(-_MARGIN, _MARGIN + 1))
     # prefilter: an isolated deviation is 12 times the mean of its window, one of three is 4 times
-    candidates = np.flatnonzero((surprise > MIN_SURPRISE) & (surprise > 3.0 * mean))
-    if not candidates.size:
-        return []
-    windows = sliding_window_view(padded, 2 * _MARGIN + 1)[candidates]
-    largest = windows[:, NEIGHBOUR_STEPS : NEIGHBOUR_STEPS + 2 * EXCLUDED_STEPS + 1].max(axis=1)
+    is_isolated = windows[:, _MARGIN] > 3.0 * windows.mean(axis=1)
+    i, windows = i[is_isolated], windows[is_isolated]
     # the larger of both sides, so that the onset of shaking is not flagged
     background = np.maximum(_background(windows[:, :NEIGHBOUR_STEPS]), _background(windows[:, -NEIGHBOUR_STEPS:]))
-    indices: list[int] = candidates[(surprise[candidates] >= largest) & (surprise[candidates] > SURPRISE_RATIO * background)].tolist()
+    indices: list[int] = i[windows[:, _MARGIN] > SURPRISE_RATIO * background].tolist()
     return indices
 
 
@@ -155,16 +162,15 @@ def find_flipped_samples(acceleration: FloatArray) -> IntArray:
             continue
         # a lost minus is a positive sample between negative ones, and rare
         is_negative = piece < 0.0
-        k = np.flatnonzero((piece[2:-2] > 0.0) & is_negative[:-4] & is_negative[1:-3] & is_negative[3:-1] & is_negative[4:])
+        k = np.flatnonzero(is_negative[:-4] & is_negative[1:-3] & ~is_negative[2:-2] & is_negative[3:-1] & is_negative[4:])
         expected = _cubic_midpoint(*(piece[k + i] for i in (0, 1, 3, 4)))
         residual, flipped_residual = np.abs(piece[k + 2] - expected), np.abs(piece[k + 2] + expected)
         # prefilter: a sample of size x with the wrong sign deviates by 2 x
-        for j in np.flatnonzero((residual > MIN_SURPRISE) & (flipped_residual < 0.2 * residual)):
-            i = int(k[j])
-            usual = _usual_residual(piece, i)
-            is_flipped = residual[j] > FLIP_RATIO * usual and flipped_residual[j] < FLIP_RESIDUAL * usual
-            if is_flipped and start <= offset + i + 2 < start + PIECE:
-                indices.append(offset + i + 2)
+        is_candidate = (residual > MIN_SURPRISE) & (flipped_residual < 0.2 * residual)
+        k, residual, flipped_residual = k[is_candidate], residual[is_candidate], flipped_residual[is_candidate]
+        usual = _usual_residuals(piece, k)
+        flips = offset + 2 + k[(residual > FLIP_RATIO * usual) & (flipped_residual < FLIP_RESIDUAL * usual)]
+        indices += flips[(flips >= start) & (flips < start + PIECE)].tolist()
     return np.array(indices, dtype=np.int64)
 
 
@@ -173,13 +179,14 @@ def _cubic_midpoint(x0: FloatArray, x1: FloatArray, x3: FloatArray, x4: FloatArr
     return (4.0 * (x1 + x3) - x0 - x4) / 6.0
 
 
-def _usual_residual(piece: FloatArray, i: int) -> float:
-    """Return the median deviation from the cubic of the samples around sample ``i + 2``, infinity if there are none."""
-    first = max(i - _MARGIN, 0)
-    x = piece[first : i + _MARGIN + 5]
-    residual = np.abs(x[2:-2] - _cubic_midpoint(x[:-4], x[1:-3], x[3:-1], x[4:]))
-    background = np.concatenate((residual[: max(i - first - EXCLUDED_STEPS, 0)], residual[i - first + EXCLUDED_STEPS + 1 :]))
-    return float(_background(background[None, :])[0]) if background.size else np.inf
+def _usual_residuals(piece: FloatArray, i: IntArray) -> FloatArray:
+    """Return the median deviation from the cubic of the samples around each sample ``i + 2``, (m,)."""
+    beside = np.arange(EXCLUDED_STEPS + 1, _MARGIN + 1)
+    near = i[:, None] + np.concatenate((-beside[::-1], beside))
+    is_inside = (near >= 0) & (near < piece.size - 4)
+    at = near.clip(0, piece.size - 5)
+    residual = np.abs(piece[at + 2] - _cubic_midpoint(*(piece[at + k] for k in (0, 1, 3, 4))))
+    return _background(np.where(is_inside, residual, 0.0))
 
 
 MIN_CUSPS, MIN_CURVATURE, CUSP_RATIO, CUSP_SPACING = 5, 0.02, 4.0, 6.0
@@ -212,23 +219,25 @@ def find_rectified_samples(acceleration: FloatArray) -> list[RectifiedSamples]:
     """
     cusps: list[int] = []
     curvatures: list[float] = []
-    crossings = 0
     for start in range(0, acceleration.size, PIECE):
         piece = acceleration[start : start + PIECE + 3]
         if piece.size < 4:
             continue
-        crossings += int(np.count_nonzero(np.signbit(piece[1:-2]) != np.signbit(piece[:-3])))
-        size = np.abs(piece)
-        k = np.flatnonzero((size[1:-2] < size[:-3]) & (size[2:-1] < size[3:]))
-        k = k[size[k] + size[k + 3] - size[k + 1] - size[k + 2] > MIN_CURVATURE]
-        x, y, z, w = (piece[k + i] for i in range(4))
-        curvature, turned = np.abs(x - y - z + w), np.abs(3.0 * (y + z) - x - w)
-        has_one_sign = (x * y > 0.0) & (y * z > 0.0) & (z * w > 0.0)
-        is_cusp = has_one_sign & (curvature > CUSP_RATIO * turned)
+        is_negative, is_falling = piece < 0.0, piece[1:] < piece[:-1]
+        has_one_sign = is_negative[1:] == is_negative[:-1]
+        # four samples of one sign, of which the first step leads to zero and the last one away
+        has_one_sign = has_one_sign[:-2] & has_one_sign[1:-1] & has_one_sign[2:]
+        k = np.flatnonzero(has_one_sign & (is_falling[:-2] != is_negative[:-3]) & (is_falling[2:] == is_negative[:-3]))
+        x, y, z, w = (np.abs(piece[k + i]) for i in range(4))
+        curvature, turned = x - y - z + w, np.abs(3.0 * (y + z) - x - w)
+        is_cusp = (y < x) & (z < w) & (y * z > 0.0) & (curvature > MIN_CURVATURE) & (curvature > CUSP_RATIO * turned)
         cusps += (k[is_cusp] + start + 1).tolist()
         curvatures += curvature[is_cusp].tolist()
     if len(cusps) < MIN_CUSPS:
         return []
+    crossings = sum(
+        np.count_nonzero(np.diff(acceleration[start : start + PIECE + 1] < 0.0)) for start in range(0, acceleration.size, PIECE)
+    )
     spacing = CUSP_SPACING * acceleration.size / max(crossings, 1)
     results, first = [], 0
     for i, cusp in enumerate(cusps):

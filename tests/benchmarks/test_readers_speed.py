@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from seisblock.readers import read
+from seisblock.records import Component, Record
+from seisblock.records.qc import run_qc
 from tests.readers.files import JMA_HEADER, knet
 
 BUDGET_S = 0.15
@@ -51,6 +53,14 @@ def test_read_knet_set_of_5_minutes(benchmark, tmp_path):
     record = benchmark(read, tmp_path / "a.NS")
     assert record.codes == ("NS", "EW", "UD")
     assert benchmark.stats is None or benchmark.stats.stats.median < 2 * BUDGET_S
+
+
+def test_check_day_long_component(benchmark):
+    """24 h at 100 Hz, noise that exceeds every threshold of size, in under 0.9 s."""
+    component = Component("EW", np.random.default_rng(1).normal(scale=0.1, size=8_640_000))
+    record = benchmark(run_qc, Record([component], 0.01))
+    assert not record.doubts
+    assert benchmark.stats is None or benchmark.stats.stats.min < 6 * BUDGET_S
 
 
 def test_text_readers_import_no_large_package():

@@ -6,6 +6,7 @@ from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import pytest
+from numpy.lib.stride_tricks import sliding_window_view
 
 from seisblock.readers import read
 from seisblock.readers.assemble import TRIM_TOLERANCE, _trim_to_shortest
@@ -59,6 +60,26 @@ def test_find_repetitions_needs_a_whole_window(count, is_found, lag):
         assert (min(pieces[0].first, STRONG), pieces[0].second - pieces[0].first) == (pieces[0].first, abs(lag))
         assert pieces[0].samples >= count
         assert pieces[0].samples <= count + 2
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_find_repetitions_agrees_with_a_comparison_of_all_windows(seed):
+    """Flat stretches, short periods and zeros of either sign beside pieces that occur two or three times."""
+    rng = np.random.default_rng(seed)
+    row = np.round(rng.normal(scale=10.0 ** rng.uniform(0.5, 3.0), size=3000)) / 100.0
+    row[500:900], row[1200:1230] = np.tile(row[500 : 504 + seed % 8], 100)[:400], np.where(row[1200:1230] > 0.0, row[1200], -0.0)
+    for first, second in rng.integers(0, 2900, (6, 2)):
+        count = rng.integers(18, 90)
+        row[second : second + count] = row[first : first + count].copy()
+    last, expected = {}, []
+    for second, window in enumerate(sliding_window_view(row + 0.0, WINDOW)):
+        first = last.get(window.tobytes())
+        if first is not None and qc_repetition._is_informative(row, np.array([first]))[0]:
+            expected.append((first, second))
+        last[window.tobytes()] = second
+    pieces = find_repetitions(row)
+    assert {(p.first + i, p.second + i) for p in pieces for i in range(p.samples - WINDOW + 1)} >= set(expected) != set()
+    assert all(np.array_equal(row[p.first : p.first + p.samples], row[p.second : p.second + p.samples]) for p in pieces)
 
 
 def test_find_repetitions_finds_a_record_that_stands_twice():
