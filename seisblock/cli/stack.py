@@ -204,6 +204,7 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
     """Solve the pile under each record."""
     from dataclasses import replace
 
+    from seisblock.cli.azimuth_sweep import assessed_figure
     from seisblock.cli.progress import progress
     from seisblock.core.errors import ParameterError
     from seisblock.models.stack.solve import solve_stack
@@ -255,6 +256,7 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
         output,
         responses=responses,
         tables=lambda: tables(responses, extras, gal=output.gal),
+        figure=assessed_figure(responses, extras, gal=output.gal),
         probability=first_probability(extras),
     )
 

@@ -149,6 +149,13 @@ def test_legend_of_small_figure_moves_above_axes(number, lang):
     assert not figure.legend_covers_curve(figure.axes[0].get_legend())
 
 
+def test_footer_leaves_room_for_legend_of_figure():
+    """The lines below the criteria ran into the legend beside them."""
+    figure = figure_of("criteria", "en")
+    (legend,) = figure.legends
+    assert not figure.footer.get_window_extent().overlaps(legend.get_window_extent())
+
+
 @pytest.mark.parametrize("suffix", ["png", "svg"])
 def test_legend_moves_above_long_panel_title(suffix):
     """The title of the tutorial's overturned gravestone lost its factor behind the legend."""

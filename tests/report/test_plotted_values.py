@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.lines import Line2D
 
-from seisblock import Block, solve_respond, solve_rock
+from seisblock import Block, Pile, PileStone, solve_respond, solve_rock, solve_stack
 from seisblock.bodies.scan.azimuths import scan_azimuths
 from seisblock.bodies.scan.scan import scan_body
 from seisblock.bodies.sliding_base import SlidingBase
@@ -374,6 +374,9 @@ def test_time_history_names_object_friction_and_probability():
         axis.get_title(loc="left") for axis in rock_figure([solve_rock(Block(0.24, 0.72), responses[0].motion)], probabilities=[0.5]).axes
     ]
     assert any("24 × 72 cm, overturning probability 50 %" in text for text in titles)
+    pile = Pile("post", (PileStone("post", 0.24, 0.24, 0.72),), mu=0.7)
+    fig = response_figure([solve_stack(pile, responses[0].motion)], probabilities=[0.31])
+    assert "+x = NS: post\nheight 72 cm, μ 0.7, overturning probability 31 %" in [axis.get_title(loc="left") for axis in fig.axes]
 
 
 def test_time_history_fits_a_column_of_85_mm():
@@ -392,7 +395,10 @@ def test_four_responses_are_small_multiples_of_one_page():
     for axis, response in zip(items, responses, strict=True):
         values = np.asarray(axis.lines[0].get_ydata())
         assert np.abs(values).max() == pytest.approx(np.degrees(np.abs(response["rotation"]).max()), rel=1e-3)
-    assert [axis.get_title(loc="left").splitlines()[1] for axis in items][::2] == [f"overturning probability {p} %" for p in (10, 30)]
+    below = [axis.get_title(loc="left").splitlines()[1] for axis in items]
+    assert below[::2] == [f"overturning probability {p} %" for p in (10, 30)]
+    assert below[1] == f"peak {np.degrees(np.abs(responses[1]['rotation']).max()):.3g}°"
+    assert fig.get_suptitle() == "respond, block, 24 × 72 cm, μ 0.6: 4 of 4 time histories"
 
 
 def test_three_responses_are_drawn_in_full():

@@ -16,7 +16,7 @@ from seisblock.models.jump.interpolate import interpolate_phases
 from seisblock.models.jump.solve import JumpOutcome
 from seisblock.output.figures import style
 from seisblock.output.figures.curves import draw_curve
-from seisblock.output.figures.heading import motions_heading, panel_labels
+from seisblock.output.figures.heading import motions_heading, object_label, panel_labels
 from seisblock.output.figures.time_histories import Interval, history_columns, strong_motion_interval
 from seisblock.output.units_display import Unit, acceleration_unit, length_unit
 
@@ -75,7 +75,9 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Jump
         style.shade_phases(panel, response.phases, COLOURS, names=panel is panels[min(1, len(panels) - 1)])
     for panel in panels[:2]:
         style.add_legend(panel)
-    style.set_panel_title(panels[0], gettext("{name}: {what}", name=panel_name, what=gettext(response.body.name)))
+    body = response.body
+    label = object_label(body.width, body.height, friction=response.options.contact.mu, gal=gal)
+    style.set_panel_title(panels[0], f"{gettext('{name}: {what}', name=panel_name, what=gettext(body.name))}\n{label}")
     labels = gettext("z'' ({unit})", unit=name), *(gettext(text, unit=disp_unit.name) for text in QUANTITIES)
     for panel, text in zip(panels, labels, strict=False):
         style.label_axes(panel, y=text)

@@ -10,14 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from seisblock.bodies.convex import convex_body
-from seisblock.core.i18n import format_share, gettext
+from seisblock.core.i18n import gettext
 from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
 from seisblock.models.rigid3d.describe import verdict
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome
 from seisblock.output.figures import style
 from seisblock.output.figures.curves import draw_curve
-from seisblock.output.figures.heading import motions_heading, panel_labels
+from seisblock.output.figures.heading import motions_heading, object_label, panel_labels
 from seisblock.output.figures.rose import draw_fall_rose
 from seisblock.output.figures.time_histories import Interval, history_columns, strong_motion_interval
 from seisblock.output.units_display import acceleration_unit, length_unit
@@ -76,10 +76,9 @@ def figure(
     columns = history_columns(histories, motions, spans, 4, heights=(1.3, 1.0, 1.0, 1.0))
     chances = list(probabilities) or [None] * len(responses)
     for panels, name, response, chance in zip(columns, panel_labels(motions), responses, chances, strict=True):
-        lines = [f"{name}  {_object_text(response, gal=gal)}", gettext(verdict(response, gal=gal))]
-        if chance is not None:
-            lines[0] += "  " + gettext("overturning probability {share}", share=format_share(chance))
-        _draw_ground(panels[0], "\n".join(lines), response, gal=gal)
+        solid = convex_body(response.body)
+        sizes = object_label(*np.ptp(solid.points, axis=0).tolist(), friction=response.options.mu, probability=chance, gal=gal)
+        _draw_ground(panels[0], f"{name}  {gettext(solid.name)} {sizes}\n{gettext(verdict(response, gal=gal))}", response, gal=gal)
         for channel, colour, dashes in (("x", style.ACCENT, "-"), ("y", style.SECOND, (0, (5, 1.5)))):
             start = response[channel][0]
             draw_curve(
@@ -103,15 +102,6 @@ def figure(
 def twist_history(response: Response[Rigid3dOutcome]) -> FloatArray:
     """Return the rotation about the vertical at each sample, degrees."""
     return np.degrees(np.unwrap(2.0 * np.arctan2(response["qz"], response["qw"])))  # type: ignore[no-any-return]
-
-
-def _object_text(response: Response[Rigid3dOutcome], *, gal: bool) -> str:
-    """Return name, extents and friction of the object."""
-    solid = convex_body(response.body)
-    sizes = np.ptp(solid.points, axis=0).tolist()
-    unit = length_unit(sizes, gal=gal)
-    extents = " x ".join(f"{size / unit.size:.3g}" for size in sizes)
-    return f"{gettext(solid.name)} {extents} {unit.name}, μ {response.options.mu:g}"
 
 
 def motion_interval(response: Response[Rigid3dOutcome]) -> Interval:

@@ -17,7 +17,7 @@ from seisblock.models.stack.outcome import StackOutcome
 from seisblock.models.stack.stone_falls import describe_falls
 from seisblock.output.figures import style
 from seisblock.output.figures.curves import draw_curve
-from seisblock.output.figures.heading import motions_heading, panel_labels
+from seisblock.output.figures.heading import motions_heading, object_label, panel_labels
 from seisblock.output.figures.time_histories import history_columns, strong_motion_interval
 from seisblock.output.text.wrap import wrap_text
 from seisblock.output.units_display import Unit, acceleration_unit, length_unit
@@ -36,19 +36,32 @@ AFTER_FALL_S = 2.0
 """Time shown after overturning of a stone, s; a lying cylinder may roll until the end of the record."""
 
 
-def figure(responses: StackResponses, *, gal: bool = True) -> Figure:
-    """Return the figure: per run ground acceleration, tilts and slips of the stones over time."""
+def figure(responses: StackResponses, *, gal: bool = True, probabilities: Sequence[float | None] = ()) -> Figure:
+    """Return the figure: per run ground acceleration, tilts and slips of the stones over time.
+
+    Parameters
+    ----------
+    responses : sequence of Response
+    gal : bool
+    probabilities : sequence of float or None
+        Probability that a stone falls, of each response, where known.
+    """
     motions = [response.motion for response in responses]
     # curves end at overturning of their stone
     stretches = [motion_interval(response, margin=1.0, after_fall=0.0) for response in responses]
     fig = style.titled_figure(motions_heading(motions), width=3.5 + 4.5 * len(responses), height=6.6)
     disp_unit = length_unit((max_standing(response, "slip") for response in responses), gal=gal)
-    for panels, name, response in zip(history_columns(fig, motions, stretches, 3), panel_labels(motions), responses, strict=True):
-        _draw_column(panels, name, response, disp_unit, gal=gal)
+    columns, chances = history_columns(fig, motions, stretches, 3), list(probabilities) or [None] * len(responses)
+    for panels, name, response, chance in zip(columns, panel_labels(motions), responses, chances, strict=True):
+        body = response.body
+        height = max(centre[2] + 0.5 * stone.height for centre, stone in zip(body.centres(), body.stones, strict=True))
+        title = f"+x = {name}: {gettext(body.name)}"
+        label = gettext("height {height}", height=object_label(height, friction=body.mu, probability=chance, gal=gal))
+        _draw_column(panels, f"{title}\n{label}", response, disp_unit, gal=gal)
     return fig
 
 
-def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[StackOutcome], disp_unit: Unit, *, gal: bool) -> None:
+def _draw_column(panels: Sequence[Any], title: str, response: Response[StackOutcome], disp_unit: Unit, *, gal: bool) -> None:
     """Draw the three panels of one run."""
     motion = response.motion
     unit, unit_name = acceleration_unit(gal=gal)
@@ -77,7 +90,7 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Stac
         panels[1].set_title(falls_text, fontsize=7, loc="left", linespacing=1.4, parse_math=False)
     style.add_legend(panels[0])
     style.add_legend(panels[2])  # between the two panels of the stones
-    style.set_panel_title(panels[0], f"+x = {panel_name}: {gettext(response.body.name)}")
+    style.set_panel_title(panels[0], title)
     labels = gettext("a ({unit})", unit=unit_name), gettext("tilt θ (deg)"), gettext("slip s ({unit})", unit=disp_unit.name)
     for panel, text in zip(panels, labels, strict=True):
         style.label_axes(panel, y=text)

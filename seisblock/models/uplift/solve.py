@@ -93,7 +93,7 @@ def _curves(body: SpringBlock, motion: Motion, trajectory: Trajectory) -> Histor
         Channel("displacement", "m", states[:, X], "x"),
         Channel("displacement_across", "m", states[:, Y], "y"),
         Channel("displacement_up", "m", states[:, U : U + 4].mean(axis=1), "z"),
-        Channel("rotation", "rad", theta_y, "theta_y"),
-        Channel("rotation_across", "rad", -theta_x, "-theta_x"),
+        Channel("rotation", "rad", theta_y, "θy"),
+        Channel("rotation_across", "rad", -theta_x, "−θx"),
     )
     return Histories(motion.start_s + time, channels)

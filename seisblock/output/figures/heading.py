@@ -10,6 +10,7 @@ from seisblock.output.figures.fonts import can_render
 from seisblock.output.figures.style import SEPARATOR
 from seisblock.output.units_display import length_unit
 from seisblock.records import Motion, Record
+from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.site import epicentral_distance_km, format_local_time, get_earthquake, get_site, source_name
 
 LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
@@ -67,10 +68,10 @@ def record_label(record: Record) -> str:
     return next((name for name in (site.label, site.code, record.source) if name and can_render(name)), gettext("record"))
 
 
-def object_label(width: float, height: float, *, friction: float | None, probability: float | None, gal: bool, narrow: bool = False) -> str:
-    """Return size, friction and overturning probability of an object, where known, below a panel title; one a line if `narrow`."""
-    unit = length_unit([width, height], gal=gal)
-    parts = [f"{width / unit.size:.3g} × {height / unit.size:.3g} {unit.name}"]
+def object_label(*sizes: float, friction: float | None, probability: float | None = None, gal: bool, narrow: bool = False) -> str:
+    """Return sizes, friction and overturning probability of an object, where known, below a panel title; one a line if `narrow`."""
+    unit = length_unit(sizes, gal=gal)
+    parts = [f"{' × '.join(f'{size / unit.size:.3g}' for size in sizes)} {unit.name}"] if sizes else []
     if friction is not None:
         parts.append(gettext("μ {mu:g}", mu=friction))
     if probability is not None:
@@ -102,7 +103,9 @@ def _unique_records(records: Sequence[Record | None]) -> list[Record]:
 
 
 def direction_name(name: str) -> str:
-    """Return the code of a component, or an azimuth with degree sign."""
+    """Return the code of a component, an azimuth with degree sign, or that all azimuths are meant."""
+    if name == ALL_AZIMUTHS:
+        return gettext("all azimuths")
     try:
         float(name)
     except ValueError:

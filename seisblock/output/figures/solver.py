@@ -14,7 +14,7 @@ from seisblock.core.registry import get_solver
 from seisblock.core.results import Channel, Response
 from seisblock.output.figures import style
 from seisblock.output.figures.curves import draw_curve
-from seisblock.output.figures.heading import motions_heading, panel_labels
+from seisblock.output.figures.heading import motions_heading, object_label, panel_labels
 from seisblock.output.figures.time_histories import history_columns, strong_motion_interval
 from seisblock.output.text.shaking import shaking_lines
 from seisblock.output.text.solver import event_text
@@ -75,18 +75,19 @@ def small_multiples(responses: Sequence[Response[Any]], *, gal: bool = True, pro
     panels = list(responses[:MAX_MULTIPLES])
     columns = [_main_channel(panels, response) for response in panels]
     rows = math.ceil(len(panels) / MAX_COLUMNS)
-    subject = join_list(filter(None, [panels[0].model, gettext(getattr(panels[0].body, "name", "") or "")]))
+    subject = join_list(filter(None, [panels[0].model, gettext(getattr(panels[0].body, "name", "") or ""), _object_of(panels[0], gal=gal)]))
     title = gettext("{subject}: {count} of {total} time histories", subject=subject, count=len(panels), total=len(responses))
     fig, axes = style.new_figure(rows, columns=MAX_COLUMNS, width=10.0, height=0.9 + 1.7 * rows, title=title, sharex=False, sharey=True)
     unit = length_unit((float(np.abs(c.values).max()) for c in columns if c.unit == "m"), gal=gal)
     for index, (axis, response, channel) in enumerate(zip(axes, panels, columns, strict=False)):
-        size, label = _display(channel, unit)
+        size, label, suffix = _display(channel, unit)
         draw_curve(axis, response.time, channel.values / size, color=style.ACCENT)
         axis.set_xlim(*strong_motion_interval(response.motion))
         name = panel_labels([item.motion for item in panels])[index]
         probability = probabilities[index] if probabilities else None
         share = "" if probability is None else gettext("overturning probability {share}", share=format_share(probability))
-        style.set_panel_title(axis, f"{_shorten(name)}\n{share or event_text(response)}")
+        peak = gettext("peak {value}", value=f"{float(np.abs(channel.values).max()) / size:.3g}{suffix}")
+        style.set_panel_title(axis, f"{_shorten(name)}\n{share or peak}")
         last_row, first_column = index + MAX_COLUMNS >= len(panels), index % MAX_COLUMNS == 0
         style.label_axes(axis, x=gettext("t (s)") if last_row else "", y=label if first_column else "")
     for axis in axes[len(panels) :]:
@@ -107,14 +108,22 @@ def _shorten(name: str) -> str:
     return name if len(name) <= MAX_TITLE else f"{name[: MAX_TITLE // 2]}…{name[-MAX_TITLE // 2 + 1 :]}"
 
 
-def _display(channel: Channel, length: Unit) -> tuple[float, str]:
-    """Return the size of the display unit and the axis label of a channel."""
+def _object_of(response: Response[Any], *, gal: bool) -> str:
+    """Return sizes and friction of the object of a response, as far as its model has them."""
+    body, options = response.body, response.options
+    sizes = [getattr(body, name) for name in ("width", "height") if hasattr(body, "width") and hasattr(body, "height")]
+    owners = (options, getattr(options, "contact", None), body)
+    return object_label(*sizes, friction=next((mu for owner in owners if (mu := getattr(owner, "mu", None)) is not None), None), gal=gal)
+
+
+def _display(channel: Channel, length: Unit) -> tuple[float, str, str]:
+    """Return the size of the display unit, the axis label of a channel and the unit behind a value."""
     symbol = channel.symbol or gettext(channel.name)
     if channel.unit == "rad":
-        return math.radians(1.0), gettext("{symbol} (deg)", symbol=symbol)
+        return math.radians(1.0), gettext("{symbol} (deg)", symbol=symbol), "°"
     if channel.unit == "m":
-        return length.size, f"{symbol} ({length.name})"
-    return 1.0, f"{symbol} ({channel.unit})"
+        return length.size, f"{symbol} ({length.name})", f" {length.name}"
+    return 1.0, f"{symbol} ({channel.unit})", f" {channel.unit}"
 
 
 def figure(responses: Sequence[Response[Any]], *, gal: bool = True) -> Figure:

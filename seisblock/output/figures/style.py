@@ -144,9 +144,10 @@ class StyledFigure(Figure):
         return lifted
 
     def _fit_footer(self, renderer: Any) -> None:
-        """Break the lines of the footer in two where the longest exceeds the figure."""
+        """Break the lines of the footer in two where the longest exceeds the figure, or the room beside a legend."""
         text = self.footer
-        if text is None or text.get_window_extent(renderer).width <= 0.98 * self.bbox.width:
+        beside = max((key.get_window_extent(renderer).width for key in self.legends), default=0.0)
+        if text is None or text.get_window_extent(renderer).width <= 0.98 * self.bbox.width - beside:
             return
         lines = text.get_text().splitlines()
         text.set_text("\n".join(split_in_two(line, "、" if "、" in line else " ") for line in lines))

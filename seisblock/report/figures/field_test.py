@@ -34,7 +34,7 @@ def figure() -> Figure:
         x = [place + SPREAD * (index - (len(MODELS) - 1) / 2) for place in places]
         text = gettext("{model}: rms {rms:.2f}, bias {bias:+.2f}", model=gettext(name), rms=rms(model.key), bias=bias(model.key))
         axis.plot(x, rates(model.key), marker, color=colour, markersize=4.5, label=text)
-    axis.set_xticks(list(places), [survey.name for survey in SURVEYS])
+    axis.set_xticks(list(places), [gettext(survey.name) for survey in SURVEYS])
     axis.set_ylim(-0.03, 1.42)
     axis.set_yticks([0.0, 0.25, 0.5, 0.75, 1.0])
     style.label_axes(axis, "", gettext("overturning rate (1)"))

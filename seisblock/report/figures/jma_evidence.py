@@ -63,7 +63,7 @@ def figure(falls: Mapping[str, FloatArray], intensities: Mapping[str, FloatArray
         )
     mean = np.mean(list(falls.values()), axis=0)
     left.plot(levels, mean, color=style.SECOND, linestyle="--", linewidth=1.2, label=gettext("mean of six pieces"))
-    left.set_xticks(levels, CLASS_NAMES)
+    left.set_xticks(levels, [gettext(name) for name in CLASS_NAMES])
     left.set_ylim(-0.03, 1.05)
     style.set_panel_title(left, gettext("unfastened furniture"))
     style.label_axes(left, gettext("JMA intensity class"), gettext("share that falls (1)"))
