@@ -1,5 +1,6 @@
 """The lines of README.md and of docs/ print, compute and draw what the pages show; those that are shown only could be typed."""
 
+import importlib
 import pickle
 import re
 
@@ -7,7 +8,7 @@ import click
 import pytest
 
 from seisblock.cli import COMMANDS, main
-from tests.pages import FENCED, PAGES, changed_figures, lines_of, matches, page_differences
+from tests.pages import FENCED, PAGES, ROOT, changed_figures, lines_of, matches, page_differences
 
 SLOW = {"docs/guides/fit.md", "docs/guides/secure_objects.md", "docs/ja/museum.md", "docs/trust.md"}
 """Pages whose lines take more than some seconds."""
@@ -82,3 +83,10 @@ def test_page_comparison_detects_changes():
     assert not matches("NS: falls\n...\nend", "NS: stands\na\nend")
     assert not matches("NS: falls ... 3", "NS: falls 1 3")
     assert lines_of("$ seisblock a\nx  \n\n$ seisblock b\n")[0].output == "x"
+
+
+def test_fractions_of_two_digits_are_halves(monkeypatch):
+    r"""``\tfrac12 W`` was written as 12 over W on the page of `rigid3d`."""
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "_ext"))
+    mathml = importlib.import_module("mathml")
+    assert "<mfrac><mn>3</mn><mn>2</mn></mfrac>" in "".join(mathml.to_mathml(r"\frac32 x", block=False).split())

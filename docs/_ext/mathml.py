@@ -1,5 +1,7 @@
 """Equations as MathML, which browsers render without script, font or network."""
 
+import re
+
 from docutils import nodes
 from docutils.utils.math import latex2mathml
 from sphinx.application import Sphinx
@@ -8,7 +10,9 @@ from sphinx.writers.html5 import HTML5Translator
 
 def to_mathml(source: str, *, block: bool) -> str:
     """Return an equation in LaTeX as MathML."""
-    return latex2mathml.tex2mathml(source.strip(), as_block=block)
+    # docutils takes the digits of \tfrac12 for one number
+    digits = re.sub(r"(\\[td]?frac)(\d)(\d)", r"\1{\2}{\3}", source.strip())
+    return latex2mathml.tex2mathml(digits, as_block=block)
 
 
 def inline(writer: HTML5Translator, node: nodes.math) -> None:

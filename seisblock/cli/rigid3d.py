@@ -80,6 +80,7 @@ def solve_in_space(
     from seisblock.models.rigid3d.describe import contact_summary
     from seisblock.models.rigid3d.solve import solve_rigid3d
     from seisblock.report.json.rigid3d import document
+    from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.rigid3d import tables
     from seisblock.studies.assessment import assess_rigid3d
     from seisblock.studies.azimuth_probability import sample_orientations
@@ -127,4 +128,5 @@ def solve_in_space(
         responses=responses,
         figure=assessed_figure(responses, extras, gal=output.gal),
         tables=lambda: tables(responses, extras, gal=output.gal),
+        probability=first_probability(extras),
     )

@@ -9,7 +9,7 @@ import pytest
 
 from seisblock.output.animation.html import VIEW_AZIMUTHS, animation_html
 from seisblock.output.animation.render import AnimationOptions
-from seisblock.output.animation.scene3d import AZIMUTH, ELEVATION, view_axes
+from seisblock.output.animation.scene3d import AZIMUTH, ELEVATION, Scene3D, Solid, view_axes
 from tests.report.test_every_animation import film
 
 PLACE = AZIMUTH + 2.0 * math.pi * np.arange(VIEW_AZIMUTHS) / VIEW_AZIMUTHS
@@ -49,3 +49,13 @@ def test_view_box_of_first_azimuth_is_too_narrow_for_others():
     expected = boxes("stack")
     assert (np.abs(expected - expected[0]).max(axis=1) > 0.2).any()
     np.testing.assert_allclose(expected[0], film("stack", 100).scene.extent(), atol=1e-4)
+
+
+@pytest.mark.parametrize("displacement", [-3.0, 3.0])
+def test_view_box_follows_ground_that_rises_in_the_picture(displacement):
+    """A gravestone lost its top where the ground moved away from the viewer."""
+    ground = np.linspace(0.0, 1.0, 5)[:, np.newaxis] * [0.0, displacement, 0.0]
+    solid = Solid((0.24, 0.24, 0.63), np.tile([0.0, 0.0, 0.315], (5, 1)), np.tile([1.0, 0.0, 0.0, 0.0], (5, 1)))
+    left, end, bottom, top = Scene3D(ground, (solid,), 0.26).extent()
+    across, rise = seen_from(AZIMUTH, np.concatenate([solid.corners_at(k) + ground[k] for k in range(5)]))
+    assert left < across.min() and across.max() < end and bottom < rise.min() and rise.max() < top

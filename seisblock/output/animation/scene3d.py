@@ -151,7 +151,8 @@ class Scene3D:
         left = min(max(float(across.min()) - reach, -self.visible_radius), float(aside.min()) - beside)
         end = max(min(float(across.max()) + reach, self.visible_radius), float(aside.max()) + beside)
         low = min(max(float(high.min()) - reach, -self.visible_radius), float(rise.min()) - beside)
-        return left, end, low, max(min(float(high.max()) + reach, 1.5 * tall), float(rise.max()) + beside)
+        ceiling = 1.5 * tall + max(float((self.ground_displacement @ up).max()), 0.0)
+        return left, end, low, max(min(float(high.max()) + reach, ceiling), float(rise.max()) + beside)
 
     @property
     def visible_radius(self) -> float:
