@@ -9,7 +9,7 @@ from seisblock.cli.console import always, info, note_default_record, warning
 from seisblock.cli.options import Source
 from seisblock.cli.progress import progress, set_task
 from seisblock.cli.verbosity import is_quiet
-from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.core.errors import ComponentError, InputError, ParameterError
 from seisblock.core.i18n import gettext
 from seisblock.records import Motion, Preparation, Record, motion_of
 
@@ -30,7 +30,6 @@ def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: b
     """
     if not keep_whole:
         check_single_window(source)
-    from seisblock.readers import read_all
     from seisblock.samples import DEFAULT_SAMPLE, REAL_SAMPLE
 
     names: tuple[str, ...] = source.record
@@ -41,12 +40,35 @@ def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: b
         names = (DEFAULT_SAMPLE,)
         note_default_record(DEFAULT_SAMPLE, synthetic=True)
     with progress("reading {names}", names=[Path(name).name for name in names]):
-        records = read_all(names, **source.read_options().keywords)
+        records = _read_records(names, source)
         results = [_prepare(record, source, vertical_counts=vertical_counts, keep_whole=keep_whole) for record in records]
     _report_checks(results)
     report_qc(results, strict=source.strict)
     set_task("computing")
     return results
+
+
+def _read_records(names: tuple[str, ...], source: Source) -> list[Record]:
+    """Return the records; of all stations, those that can be read, with a warning for each other one."""
+    from seisblock.readers import read_all
+    from seisblock.readers.discover import iter_records
+    from seisblock.readers.read import ALL_STATIONS, read_source
+
+    options = source.read_options()
+    try:
+        return read_all(names, **options.keywords)
+    except InputError:
+        if options.station != ALL_STATIONS or source.strict:
+            raise
+        records = []
+        for recording in iter_records(names, options):
+            try:
+                records.append(read_source(recording, options))
+            except InputError as error:
+                warning("{name}: {what}", name=recording.name, what=error.message)
+        if not records:
+            raise
+    return records
 
 
 def _report_checks(records: list[Record]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -21,6 +22,8 @@ from seisblock.records.site import Earthquake, get_earthquake
 
 BEFORE_ORIGIN, AFTER_ORIGIN = timedelta(minutes=1), timedelta(hours=1)
 """A record of an event ends at most so long before its origin time, and begins at most so long after it."""
+
+_BUFFER = re.compile(r"<_io\.BytesIO [^>]*>")
 
 
 @dataclass(frozen=True)
@@ -112,7 +115,7 @@ def load_quakeml(name: str, content: bytes) -> EventSource:
             warnings.simplefilter("ignore")
             catalog = obspy.read_events(io.BytesIO(content), format="QUAKEML")
     except Exception as error:  # ObsPy's readers raise bare Exceptions
-        reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
+        reason = " ".join(_BUFFER.sub(name, str(error)).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
         raise RecordFormatError("{name}: neither QuakeML nor a JSON file of an event ({why})", name=name, why=reason) from error
     return _from_catalog(name, catalog)
 

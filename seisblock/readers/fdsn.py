@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 
 from seisblock.core.errors import ParameterError, RecordError, RecordNotFoundError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.readers.event import is_quakeml
 from seisblock.readers.formats.mseed import is_mseed
 from seisblock.readers.source import MAX_QUOTED_LENGTH
 
@@ -130,7 +131,10 @@ class DataCenter:
     def event(self, event_id: str) -> bytes:
         """Return the QuakeML of an event."""
         subject = lazy_gettext("event {id}", id=event_id)
-        return self._request("event", subject, lambda client: _file_of(client.get_events, eventid=event_id))
+        content = self._request("event", subject, lambda client: _file_of(client.get_events, eventid=event_id))
+        if not is_quakeml(content):
+            raise RecordError("{name} returned no QuakeML for event {id}: try again later", name=self.name, id=event_id)
+        return content
 
     def sensors(
         self,
@@ -263,11 +267,14 @@ def _status_of(error: BaseException) -> int | None:
 
 def _is_transient(error: BaseException) -> bool:
     """Return whether a request that failed may succeed later: busy server, or no connection."""
+    status = _status_of(error)
+    return status in _TRANSIENT_STATUS if status else _is_of_service(error)
+
+
+def _is_of_service(error: BaseException) -> bool:
+    """Return whether an error is one of the service or of the connection."""
     from obspy.clients.fdsn.header import FDSNException
 
-    status = _status_of(error)
-    if status:
-        return status in _TRANSIENT_STATUS
     return isinstance(error, (FDSNException, OSError, http.client.HTTPException))
 
 
@@ -285,6 +292,9 @@ def _repeat(ask: Callable[[], T], retries: int) -> T:
 
 def _reason(error: BaseException) -> str:
     """Return the first line of an error in one sentence."""
+    if not _is_of_service(error):
+        # ObsPy's parsers fail with errors of Python for anything but StationXML
+        return lazy_gettext("unreadable answer")
     status = _status_of(error)
     text = " ".join(str(error).partition("Detailed response")[0].split()) or type(error).__name__
     return (f"HTTP {status}: {text}" if status and str(status) not in text else text)[:MAX_QUOTED_LENGTH]

@@ -27,6 +27,7 @@ from seisblock.readers.streams import is_obspy, record_from_obspy
 from seisblock.records import Record
 from seisblock.records.analytic import analytic_record, is_analytic
 from seisblock.records.qc import run_qc
+from seisblock.records.site import matches_station
 
 ALL_STATIONS = "all"
 """Station name that selects all stations of an archive."""
@@ -216,7 +217,7 @@ def _analytic_records(name: str, options: ReadOptions) -> list[Record]:
 
 
 def _read_folder(name: str, options: ReadOptions) -> list[Record]:
-    """Return the records in a folder: those of the station in the options, else of the only station.
+    """Return the records in a folder or an archive: those of the station in the options, else of the only station.
 
     Raises
     ------
@@ -338,7 +339,15 @@ def _parse_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
     def companions() -> tuple[RawFile, ...]:
         return inventories or find_inventories(blob, options.budget)
 
-    parts = [part for file in files for part in parse_file(file, options, companions)]
+    try:
+        parts = [part for file in files for part in parse_file(file, options, companions)]
+    except InputError:
+        # of another station, it is no obstacle
+        if not bundle or blob.path is None or options.station in (None, ALL_STATIONS):
+            raise
+        parts = [part for part in _read_folder(str(blob.path), options) if matches_station(part, options.station)]
+        if not parts:
+            raise
     return _drop_uncorrected([replace(part, metadata={**part.metadata, **bundle}) for part in parts]) if bundle else parts
 
 

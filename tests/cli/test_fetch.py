@@ -2,13 +2,16 @@
 
 import json
 import os
+import tarfile
 
+import numpy as np
 import obspy
 import pytest
 from click.testing import CliRunner
 
 from seisblock import read
 from seisblock.cli import main
+from seisblock.core.errors import InputError
 from seisblock.readers import fdsn, read_all
 from seisblock.records.site import epicentral_distance_km, get_earthquake
 from tests.readers import data_center as data_center_module
@@ -166,10 +169,51 @@ def test_fetch_states_errors_in_one_sentence(fetch, center, tmp_path):
         assert answer.exit_code == 3, (words, answer.stdout)
         assert message in answer.stderr and len(answer.stderr.strip().splitlines()) == 1, answer.stderr
         assert not (tmp_path / "a").exists()
-    for service, message in (("event", "neither QuakeML"), ("station", "returned no stations"), ("dataselect", "returned no miniSEED")):
+    unreadable = f"{center.url} returned no stations XX.NEAR (unreadable answer): try again later"
+    for service, message in (
+        ("event", f"{center.url} returned no QuakeML for event syn0001"),
+        ("station", unreadable),
+        ("dataselect", "returned no miniSEED"),
+    ):
         center.faults[service] = [b"<html>maintenance</html>"]
         answer = fetch(EVENT_ID, "--station", "XX.NEAR", "-o", tmp_path / service)
         assert answer.exit_code == 3 and message in answer.stderr, answer.stderr
+
+
+def test_station_without_response_is_no_obstacle_for_the_others(fetch, center, tmp_path):
+    """In a folder and in an archive: of all stations, it is named and the others are kept; by its own name, it is refused."""
+    folder, bundle = tmp_path / "a", tmp_path / "a.tar"
+    fetch(EVENT_ID, "-o", folder)
+    inventory = data_center_module.station("MID")
+    for channel in inventory[0][0]:
+        channel.response = None
+    inventory.write(str(folder / "XX.MID.xml"), "STATIONXML")
+    with tarfile.open(bundle, "w") as archive:
+        archive.add(folder, "a")
+    for source in map(str, (folder, bundle)):
+        answer = CliRunner().invoke(main, ["measure", source, "--station", "all", "--json"])
+        assert json.loads(answer.stdout)["record"]["station"] == "NEAR"
+        assert "warning: XX.MID.00.HN.mseed: XX.MID.00.HNE: the StationXML has no response" in answer.stderr
+        assert CliRunner().invoke(main, ["measure", source, "--station", "all", "--strict"]).exit_code == 3
+        assert read(source, station="near").station == "NEAR"
+        for station in ("MID", "all"):
+            with pytest.raises(InputError, match="has no response"):
+                read_all([source], station=station)
+
+
+def test_fetch_prints_the_quality_flags_of_each_record(fetch, monkeypatch, tmp_path):
+    """A dead channel of one of two stations."""
+    waveforms = data_center_module.trace
+
+    def dead(code, *, station, **kwargs):
+        result = waveforms(code, station=station, **kwargs)
+        if station == "MID" and code == "HNZ":
+            result.data = np.zeros_like(result.data)
+        return result
+
+    monkeypatch.setattr(data_center_module, "trace", dead)
+    answer = fetch(EVENT_ID, "-o", tmp_path / "a")
+    assert "warning: MID: UD: all samples are 0 while other components are not: dead channel" in " ".join(answer.stdout.split())
 
 
 def test_fetch_names_a_service_that_is_missing(fetch, center, tmp_path):

@@ -10,12 +10,13 @@ from seisblock.core.i18n import gettext
 from seisblock.core.units import GAL
 from seisblock.measures import peak_acceleration
 from seisblock.output.text.tables import DASH, format_number, styled_line, table
+from seisblock.records.qc_report import qc_summary
 from seisblock.studies.fetch import StationDownload
 
 
 def tables(downloads: Sequence[StationDownload], directory: Path) -> Iterator[Any]:
-    """Yield the count of usable records, the table of the stations, and the reasons of missing ones."""
-    usable = [download for download in downloads if download.record is not None]
+    """Yield the count of usable records, the table of the stations, the reasons of missing ones, and the quality flags."""
+    usable = [download.record for download in downloads if download.record is not None]
     yield styled_line(
         gettext("{directory}: {count} of {total} stations have a record", directory=directory, count=len(usable), total=len(downloads)),
         "bold",
@@ -28,6 +29,8 @@ def tables(downloads: Sequence[StationDownload], directory: Path) -> Iterator[An
     for download in downloads:
         if download.failure is not None:
             yield styled_line(gettext("{name}: {what}", name=download.sensor.name, what=download.failure.message), "yellow")
+    for message in qc_summary(usable):
+        yield styled_line(gettext("warning: {doubt}", doubt=message), "yellow")
 
 
 def _row(download: StationDownload) -> tuple[str, ...]:
