@@ -83,7 +83,7 @@ LITERATURE = (
     ),
     Reference(
         "AlartCurnier1991",
-        "Alart, P., and Curnier, A.",
+        "Alart, P. and Curnier, A.",
         1991,
         "A mixed formulation for frictional contact problems prone to Newton like solution methods",
         "Computer Methods in Applied Mechanics and Engineering, 92(3), 353-375",
@@ -91,14 +91,14 @@ LITERATURE = (
     ),
     Reference(
         "PfrommerHalmPosa2020",
-        "Pfrommer, S., Halm, M., and Posa, M.",
+        "Pfrommer, S. and Halm, M. and Posa, M.",
         2020,
         "ContactNets: learning discontinuous contact dynamics with smooth, implicit representations",
         "Conference on Robot Learning, Proceedings of Machine Learning Research, 155, 2279-2291",
     ),
     Reference(
         "SimoWong1991",
-        "Simo, J. C., and Wong, K. K.",
+        "Simo, J. C. and Wong, K. K.",
         1991,
         "Unconditionally stable algorithms for rigid body dynamics that exactly preserve energy and momentum",
         "International Journal for Numerical Methods in Engineering, 31(1), 19-52",

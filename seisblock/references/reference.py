@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Reference:
-    """Published source; ``where`` is the journal, publisher or institution."""
+    """Published source; ``where`` is the journal, publisher or institution, ``authors`` are as in BibTeX: ``Family, G. and Family, G.``."""
 
     key: str
     authors: str
@@ -26,6 +26,8 @@ class Reference:
     def bibtex(self) -> str:
         """Return the reference as a BibTeX entry."""
         container = {"article": "journal", "book": "publisher", "techreport": "institution"}.get(self.kind, "howpublished")
-        fields = {"author": self.authors, "year": str(self.year), "title": self.title, container: self.where, "doi": self.doi}
+        # braces keep the name of an institution together
+        authors = self.authors if "," in self.authors else f"{{{self.authors}}}"
+        fields = {"author": authors, "year": str(self.year), "title": self.title, container: self.where, "doi": self.doi}
         body = ",\n".join(f"  {name} = {{{value}}}" for name, value in fields.items() if value)
         return f"@{self.kind}{{{self.key},\n{body}\n}}"

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -38,6 +39,8 @@ def test_cite_prints_text_bibtex_and_json():
     assert entries.count("\n@") + 1 == len(REFERENCES) + 1
     assert entries.count("{") == entries.count("}")
     assert all(f"{{{key}," in entries for key in REFERENCES)
+    names = [name for authors in re.findall(r"author = \{(.*)\},", entries) for name in authors.split(" and ")]
+    assert [name for name in names if not re.fullmatch(r"[^,]+, [^,]+|\{.+\}|others", name)] == []
     assert [entry["key"] for entry in json.loads(run("cite", "jump", "--json").stdout)["results"]] == ["Sugimoto2017", "seisblock"]
     assert run("cite", "cook").exit_code == 2
 
