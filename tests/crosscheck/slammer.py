@@ -1,7 +1,7 @@
 """Rigid sliding analyses of USGS SLAMMER: ``python -m tests.crosscheck.slammer SLAMMER_results.xlsx``.
 
-The file is `tests/SLAMMER_results.xlsx` of the repository of pySLAMMER (GPL-3, hence not in this repository): displacements that SLAMMER 1.1
-computed for the records that pySLAMMER ships, scaled to a PGA, in both polarities. A sample is a point of the record; nothing is resampled.
+The file is `tests/SLAMMER_results.xlsx` of the repository of pySLAMMER (GPL-3, hence not in this repository): displacements that SLAMMER
+1.1 computed for the records that pySLAMMER ships, scaled to a PGA, in both polarities.
 """
 
 from __future__ import annotations
