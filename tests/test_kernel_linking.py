@@ -1,7 +1,9 @@
 """Kernels called by other kernels are linked unoptimised and optimised once, in the kernel that Python calls."""
 
 import re
+import time
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numba
@@ -139,3 +141,32 @@ def test_memoize_typing_passes_unknown_keywords_on_to_numba(monkeypatch):
     with memoize_typing():
         assert {infer(depth=1), infer(depth=1)} == {"(float64, int64) -> float64"}
     assert received == [{"depth": 1}, {"depth": 1}]
+
+
+def test_two_threads_compile_a_kernel_once(chain, monkeypatch):
+    """The thread that comes later waits for the kernel of the first one."""
+    compiled = []
+
+    def load(compile_kernel, function, variant=""):
+        compiled.append(function.__name__)
+        time.sleep(0.1)
+        return compile_kernel(cache=False)
+
+    monkeypatch.setattr(_jit.cache, "load_or_compile", load)
+    _, _, fall = chain
+    with ThreadPoolExecutor(4) as pool:
+        results = list(pool.map(lambda case: fall(*case), CASES))
+    assert results == [expected(a, b) for a, b in CASES]
+    assert compiled == ["fall"]
+
+
+def test_kernel_by_pointer_is_compiled_without_its_call_from_python(chain, monkeypatch):
+    """Conversion of arguments from Python is a third of the code of a loop with many arrays, and of no use to a pointer."""
+    monkeypatch.setattr(_jit.cache, "load_or_compile", lambda compile_kernel, function, variant: compile_kernel(cache=False))
+    _, _, fall = chain
+    pointer = _jit.function_pointer(fall, SIGNATURE)
+    call = numba.njit(_t.float64(_t.FunctionType(SIGNATURE), _t.float64, _t.float64))(lambda function, a, b: function(a, b))
+    assert [call(pointer, a, b) for a, b in CASES] == [expected(a, b) for a, b in CASES]
+    (code,) = fall.exported.inspect_llvm().values()
+    assert "@_ZN7cpython" not in code
+    assert fall._compiled is None

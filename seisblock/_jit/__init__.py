@@ -43,19 +43,32 @@ class LazyKernel:
         self._function, self._signature, self._options = function, signature, options
         self._callee: Any = None
         self._compiled: Any = None
+        self._exported: Any = None
 
     def _compile(self, **options: Any) -> Any:
         import numba
 
-        with defer_interrupt(), _internals().memoize_typing() if _internals() else contextlib.nullcontext():
+        internals = _internals()
+        if internals:
+            options = {"pipeline_class": internals.KernelCompiler} | options
+        with defer_interrupt(), internals.memoize_typing() if internals else contextlib.nullcontext():
             return numba.njit(self._signature, **self._options, **options)(self._function)
 
     @property
     def compiled(self) -> Any:
-        """Numba dispatcher, compiled on first access; of two threads the slower one usually loads what the other one saved."""
-        if self._compiled is None:
-            self._compiled = cache.load_or_compile(self._compile, self._function)
-        return self._compiled
+        """Numba dispatcher for calls from Python, compiled on first access, by one thread."""
+        with _lock():
+            if self._compiled is None:
+                self._compiled = cache.load_or_compile(functools.partial(self._compile, no_cfunc_wrapper=True), self._function)
+            return self._compiled
+
+    @property
+    def exported(self) -> Any:
+        """Numba dispatcher for calls by pointer only, without the code that converts arguments from Python."""
+        with _lock():
+            if self._exported is None:
+                self._exported = cache.load_or_compile(functools.partial(self._compile, no_cpython_wrapper=True), self._function, "pointer")
+            return self._exported
 
     @property
     def _numba_type_(self) -> Any:
@@ -71,6 +84,13 @@ class LazyKernel:
     def __reduce__(self) -> str:
         """Pickle by name; the other process compiles the kernel or loads it from the cache."""
         return self._function.__qualname__
+
+
+def _lock() -> Any:
+    """Return the lock under which numba compiles."""
+    from numba.core.compiler_lock import global_compiler_lock
+
+    return global_compiler_lock
 
 
 def _internals() -> Any:

@@ -66,10 +66,10 @@ def cache_directory() -> Path:
     return platformdirs.user_cache_path("seisblock", appauthor=False) / name
 
 
-def load_or_compile(compile_kernel: Callable[..., Any], function: Any) -> Any:
+def load_or_compile(compile_kernel: Callable[..., Any], function: Any, variant: str = "") -> Any:
     """Return the numba dispatcher of a function, from the cache as far as that works; `compile_kernel` takes the keyword ``cache``."""
     global _read_only
-    name = f"{function.__module__}.{function.__qualname__}-{function.__code__.co_firstlineno}"
+    name = f"{function.__module__}.{function.__qualname__}-{function.__code__.co_firstlineno}{variant}"
     entry = cache_directory() / hashlib.sha256(name.encode()).hexdigest()[:16]
     place = str(entry.parent)
     if os.access(entry, os.W_OK):  # numba does not load from read-only folders

@@ -49,15 +49,29 @@ class CalleeLowering(NativeLowering):  # type: ignore[misc]
         return True
 
 
-class CalleeCompiler(compiler.CompilerBase):  # type: ignore[misc]
-    """Numba compiler with :class:`CalleeLowering` in place of native lowering."""
+class KernelCompiler(compiler.CompilerBase):  # type: ignore[misc]
+    """Numba compiler without the passes that change no kernel: after each of them numba analyses the whole function again."""
+
+    unused = "WithLifting", "InlineInlinables", "InlineOverloads", "LiteralUnroll", "NopythonRewrites", "RewriteDynamicRaises"
 
     def define_pipelines(self) -> list[Any]:
-        """Return numba's default passes with the lowering replaced."""
+        """Return numba's default passes without the unused ones."""
         manager = compiler.DefaultPassBuilder.define_nopython_pipeline(self.state)
-        manager.passes = [(CalleeLowering if step is NativeLowering else step, text) for step, text in manager.passes]
+        manager.passes = [(self.replace(step), text) for step, text in manager.passes if step.__name__ not in self.unused]
         manager.finalize()
         return [manager]
+
+    def replace(self, step: Any) -> Any:
+        """Return the pass to be run for one of numba's."""
+        return step
+
+
+class CalleeCompiler(KernelCompiler):
+    """Compiler with :class:`CalleeLowering` in place of native lowering."""
+
+    def replace(self, step: Any) -> Any:
+        """Return the pass to be run for one of numba's."""
+        return CalleeLowering if step is NativeLowering else step
 
 
 @contextlib.contextmanager

@@ -12,7 +12,7 @@ class FunctionPointer(types.WrapperAddressProtocol):  # type: ignore[misc]
 
     def __init__(self, kernel: Any, signature: Any) -> None:
         self._kernel, self._signature = kernel, signature
-        result = kernel.compiled.get_compile_result(signature)
+        result = kernel.exported.get_compile_result(signature)
         self._address = int(result.library.get_pointer_to_function(result.fndesc.llvm_cfunc_wrapper_name))
         # numba's dispatcher reads this attribute before it tries the slower typeof
         self._numba_type_ = types.FunctionType(signature)

@@ -35,7 +35,7 @@ from seisblock.dynamics.buffers import (
 )
 from seisblock.dynamics.cancellation import check_cancelled
 from seisblock.dynamics.events import BEGINNING, Instant, Instants
-from seisblock.dynamics.hybrid import MODEL_POINTERS, advance, allocate_scratch, allocate_scratch_kernel
+from seisblock.dynamics.hybrid import LOOP_POINTERS, allocate_scratch, allocate_scratch_kernel
 from seisblock.dynamics.integration import STEPS_PER_SLICE, initial_state
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.model_api import LANE_FIELDS, N_LANES
@@ -47,8 +47,8 @@ _t = types()
 _IS_FAILURE = np.array([status in FAILURES for status in Status])
 
 
-@kernel(_t.int64(*MODEL_POINTERS, BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, _t.int64, _t.int64), allocates=True)
-def integrate_rows(series, reset, skip, forcing, shape, parameters, rows, first_row, steps):
+@kernel(_t.int64(*LOOP_POINTERS, BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, _t.int64, _t.int64), allocates=True)
+def integrate_rows(advance, series, reset, skip, forcing, shape, parameters, rows, first_row, steps):
     """Integrate one trajectory per row of `parameters` from `first_row` on, for `steps` steps in total; return the next row."""
     n_states = rows.states.shape[1]
     path = np.empty((0, n_states))

@@ -139,7 +139,14 @@ def _is_unchanged(y, c):
     return differing == 0
 
 
-@kernel(_t.int64(*MODEL_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT, SCRATCH))
+ADVANCE = _t.int64(*MODEL_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT, SCRATCH)
+"""Signature of :func:`advance`, which the loops call by its pointer: linked into each of them, it would be compiled three times."""
+
+LOOP_POINTERS = _t.FunctionType(ADVANCE), *MODEL_POINTERS
+"""Types of the functions of a loop over trajectories."""
+
+
+@kernel(ADVANCE)
 def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     """Advance one trajectory from its current state; return a status code.
 
@@ -322,8 +329,8 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     return status
 
 
-@kernel(_t.int64(*MODEL_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT), allocates=True)
-def integrate_kernel(series, reset, skip, forcing, shape, p, state, output):
+@kernel(_t.int64(*LOOP_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT), allocates=True)
+def integrate_kernel(advance, series, reset, skip, forcing, shape, p, state, output):
     """Advance one trajectory as :func:`advance` does, with its own work arrays; return a status code."""
     scratch = allocate_scratch_kernel(shape, state.state.size, forcing.acceleration.shape[0])
     return advance(series, reset, skip, forcing, shape, p, state, output, scratch)

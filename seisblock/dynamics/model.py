@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 from seisblock._jit import function_pointer
@@ -14,6 +14,12 @@ from seisblock.dynamics.model_api import STRIDE
 
 ORDER = 12
 """Order of the power series; at 100 Hz the next term is below round-off."""
+
+
+@cache
+def advance_pointer() -> Any:
+    """Return the function pointer of the loop of one trajectory."""
+    return function_pointer(hybrid.advance, hybrid.ADVANCE)
 
 
 @dataclass(frozen=True)
@@ -62,9 +68,10 @@ class Model:
     propagates: bool = False
 
     @cached_property
-    def pointers(self) -> tuple[Any, Any, Any]:
-        """Function pointers of series, reset and skip."""
+    def pointers(self) -> tuple[Any, Any, Any, Any]:
+        """Function pointers of the engine's step loop, series, reset and skip."""
         return (
+            advance_pointer(),
             function_pointer(self.series, hybrid.SERIES),
             function_pointer(self.reset, hybrid.RESET),
             function_pointer(self.skip, hybrid.SKIP),

@@ -26,7 +26,7 @@ from seisblock.dynamics.buffers import (
     Output,
     State,
 )
-from seisblock.dynamics.hybrid import MODEL_POINTERS, advance
+from seisblock.dynamics.hybrid import LOOP_POINTERS
 from seisblock.dynamics.model_api import STRIDE
 
 _t = types()
@@ -35,9 +35,24 @@ LANE_ARGUMENTS = BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, INTEGERS, INTEGERS, 
 """Types of the arguments of the loop after the functions."""
 
 
-@kernel(_t.int64(*MODEL_POINTERS, _t.FunctionType(STRIDE), *LANE_ARGUMENTS))
+@kernel(_t.int64(*LOOP_POINTERS, _t.FunctionType(STRIDE), *LANE_ARGUMENTS))
 def integrate_in_lanes(
-    series, reset, skip, stride, forcing, shape, parameters, rows, lane_rows, needs_engine, lane_state, no_output, scratch, first_row, steps
+    advance,
+    series,
+    reset,
+    skip,
+    stride,
+    forcing,
+    shape,
+    parameters,
+    rows,
+    lane_rows,
+    needs_engine,
+    lane_state,
+    no_output,
+    scratch,
+    first_row,
+    steps,
 ):
     """Integrate one trajectory per row from `first_row` on for `steps` steps in total; return the next unassigned row.
 
