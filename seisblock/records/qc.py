@@ -340,9 +340,17 @@ def _check_interval(record: Record) -> Iterator[QCFlag]:
     # half a unit of the ninth digit: 1/2000 s and 1/10 s are inside
     if MIN_INTERVAL_S * (1.0 - 1e-9) <= dt <= MAX_INTERVAL_S * (1.0 + 1e-9):
         return
+    # recorders with a network code state their rate themselves
+    if record.network and dt > MAX_INTERVAL_S:
+        text = lazy_gettext(
+            "sampling interval {dt:.4g} s: motion above {limit:.3g} Hz is not in the file; unusable as a strong-motion record",
+            dt=dt,
+            limit=0.5 / dt,
+        )
+        yield QCFlag("clock", text)
+        return
     reasons = {0.001 * dt: _MILLISECONDS, 86400.0 * dt: _DAYS, 0.01 * dt: _SAMPLE_NUMBERS if dt == 1.0 else _OTHER_INTERVAL}
     plausible = [reason for interval, reason in reasons.items() if MIN_INTERVAL_S <= interval <= MAX_INTERVAL_S]
-    # recorders with a network code state their rate themselves
     reason = plausible[-1 if dt == 1.0 else 0] if plausible and not record.network else _OTHER_INTERVAL
     text = lazy_gettext("sampling interval {dt:.4g} s, expected 0.0005 to 0.1 s: {reason}", dt=dt, reason=lazy_gettext(reason))
     yield QCFlag("clock", text)

@@ -133,6 +133,16 @@ def test_sampling_interval_is_checked(dt, reason):
         assert reason in flags[0].message
 
 
+@pytest.mark.parametrize(
+    ("dt", "text"), [(1.0, "1 s: motion above 0.5 Hz is not in the file"), (0.1, None), (0.0004, "check the unit of time")]
+)
+def test_sampling_rate_of_a_recorder_is_stated_but_may_be_too_low(dt, text):
+    """Channels of 1 Hz (LN?): the unit of time is right, and the record cannot be used."""
+    record = Record([Component("NS", SHAKING)], dt, metadata={"network": "XX"})
+    messages = [flag.message for flag in run_qc(record).doubts if flag.kind == "clock"]
+    assert len(messages) == (text is not None) and all(text in message for message in messages)
+
+
 @pytest.mark.parametrize(("share", "is_flagged"), [(0.098, False), (0.102, True)])
 def test_offset_of_a_tenth_of_the_peak_is_flagged(share, is_flagged):
     """Mean against peak."""
