@@ -331,6 +331,13 @@ def _missing_unit_error(name: str, trace: Any, waveform: str, *, is_integer: boo
             "file, or give it as `inventory` ({hint})"
         )
         return UnitError(message, name=name, channel=trace.id, hint=response_hint(stats.network, stats.station))
+    if is_integer:
+        # WIN of NIED and of Japanese networks
+        message = (
+            "{name}: {format} file with counts, without scale factor and station code: download the same record as K-NET ASCII, JMA CSV, "
+            "or miniSEED with StationXML"
+        )
+        return UnitError(message, name=name, format=waveform)
     message = "{name}: {format} file without a sample unit: give the StationXML as `inventory`, or `units`, gal|m/s2|g"
     return UnitError(message, name=name, format=waveform)
 

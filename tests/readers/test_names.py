@@ -8,6 +8,7 @@ import io
 import lzma
 import pickle
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import obspy
@@ -137,6 +138,15 @@ def test_pickles_are_never_loaded(tmp_path):
     for options in ({}, {"units": "gal"}, {"format": "PICKLE", "units": "gal"}, {"format": "OBSPY:PICKLE"}):
         with pytest.raises(InputError):
             read(path, **options)
+
+
+def test_counts_without_station_name_formats_that_state_their_scale():
+    """WIN, as NIED offers it (kwin) beside K-NET ASCII: no unit is to be guessed."""
+    path = Path(obspy.__file__).parent / "io" / "win" / "tests" / "data" / "10030302.00"
+    if not path.exists():
+        pytest.skip("ObsPy without its test data")
+    with pytest.raises(UnitError, match="with counts, without scale factor and station code: download the same record as K-NET ASCII"):
+        read(path)
 
 
 def test_miniseed_requires_unit(tmp_path):
