@@ -7,7 +7,7 @@ its return between two steps of the scan can be missed.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -19,7 +19,7 @@ from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, check_limit
-from seisblock.core.typing import FloatArray, Progress
+from seisblock.core.typing import BoolArray, FloatArray, Progress
 from seisblock.dynamics import integrate_many
 from seisblock.models.jump.batch import jump_many
 from seisblock.models.jump.options import JumpOptions
@@ -150,15 +150,16 @@ def scale_factors(
     check_limit(N_("factors"), steps, MAX_RUNS)
     grid = [limit * i / steps for i in range(steps + 1)]
     # the scan starts at factor 0 without displacement, so that its first step can bracket a factor too
-    values = [0.0, *_scan(displacement, grid[1:], progress)]
+    values = [0.0, *_evaluate(displacement, grid[1:], progress)]
     peak = float(np.abs(motion.horizontal).max())
-    factors = []
-    for i in range(1, len(grid)):
-        # a sign change brackets a factor; a step may bracket a discontinuity as well
-        if (values[i - 1] < observed) != (values[i] < observed):
-            factor = _bisect_factor(displacement, observed, grid[i - 1], grid[i], values[i] < observed)
-            crossing = displacement(factor)
-            factors.append(ScaleFactor(factor, factor * peak, crossing, abs(crossing - observed) > DISCONTINUITY_TOLERANCE * observed))
+    below = np.array(values) < observed
+    # a sign change brackets a factor; a step may bracket a discontinuity as well
+    brackets = np.flatnonzero(below[:-1] != below[1:])
+    found = _bisect(displacement, observed, np.array(grid)[brackets], np.array(grid)[brackets + 1], below[brackets + 1])
+    factors = [
+        ScaleFactor(factor, factor * peak, crossing, abs(crossing - observed) > DISCONTINUITY_TOLERANCE * observed)
+        for factor, crossing in zip(found, _evaluate(displacement, found), strict=True)
+    ]
     top = int(np.argmax(values))
     curve = tuple(grid), tuple(values)
     return ScaleFactors(motion.name, observed, peak, tuple(factors), displacement(1.0), values[top], grid[top], limit, curve)
@@ -181,7 +182,7 @@ class DisplacementFunction:
         return float(self.vectorized(np.array([factor]))[0])
 
 
-def _scan(displacement: Callable[[float], float], factors: list[float], progress: Progress | None) -> list[float]:
+def _evaluate(displacement: Callable[[float], float], factors: Sequence[float], progress: Progress | None = None) -> list[float]:
     """Return the displacement at each factor, on all cores."""
     if not isinstance(displacement, DisplacementFunction):
         return list(map_threads(displacement, factors, progress=progress))
@@ -190,16 +191,15 @@ def _scan(displacement: Callable[[float], float], factors: list[float], progress
     return [float(value) for part in parts for value in part]
 
 
-def _bisect_factor(displacement: Callable[[float], float], observed: float, low: float, high: float, short_above: bool) -> float:
-    """Return the factor between two at which the displacement crosses the observed one."""
-    while high - low > FACTOR_TOLERANCE * max(high, 1.0):
-        middle = 0.5 * (low + high)
-        if (displacement(middle) < observed) == short_above:
-            high = middle
-        else:
-            low = middle
+def _bisect(displacement: Callable[[float], float], observed: float, low: FloatArray, high: FloatArray, below: BoolArray) -> list[float]:
+    """Return the factor in each bracket at which the displacement crosses the observed one; `below`: smaller at the upper end."""
+    while (is_open := high - low > FACTOR_TOLERANCE * np.maximum(high, 1.0)).any():
+        middle = 0.5 * (low + high)[is_open]
+        to_high = (np.array(_evaluate(displacement, middle.tolist())) < observed) == below[is_open]
+        rows = np.flatnonzero(is_open)
+        high[rows[to_high]], low[rows[~to_high]] = middle[to_high], middle[~to_high]
     # the end on the side of the larger displacement, so that the observed one is reached
-    return high if not short_above else low
+    return np.where(below, low, high).tolist()
 
 
 def scale_motion(motion: Motion, factor: float) -> Motion:
