@@ -429,12 +429,12 @@ def assess_object(parts: Sequence[DirectionAssessment]) -> Assessment:
             factors = [factor for factor in (previous.factor, model.factor_to_overturn) if factor is not None]
             results[model.name] = ModelResult(model.name, previous.falls or model.overturns, min(factors, default=None))
     untils = [part.assessment.predictable_until_s for part in parts if part.assessment.predictable_until_s is not None]
-    worst = max(parts, key=lambda part: _severity(part.assessment))
+    worst = max(parts, key=lambda part: severity_key(part.assessment))
     samples = join_directions([part.samples for part in parts])
     return _assessment(samples, list(results.values()), min(untils, default=None), worst.assessment.direction, worst.moved_m)
 
 
-def _severity(assessment: Assessment) -> tuple[float, float, float]:
+def severity_key(assessment: Assessment) -> tuple[float, float, float]:
     """Return the key that orders the directions of an object."""
     factor = math.inf if assessment.least_factor is None else assessment.least_factor
     return assessment.overturning_probability, assessment.moved_probability, -factor

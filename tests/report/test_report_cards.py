@@ -11,6 +11,7 @@ from seisblock.studies.respond.best_estimate import BestEstimate
 from seisblock.studies.respond.probability import ParameterVariation, Probability
 from tests.report.long_record import response
 
+ENTIRE = {"overturning_probability": 1.0, "moved_probability": 1.0}
 ENDS = dict.fromkeys(("q05", "q25", "q50", "q75", "q95"), 0.0)
 
 
@@ -45,6 +46,15 @@ def test_directions_sort_by_probability_before_nominal_outcome():
     head, *text = card_text([falls, stands])
     assert head.startswith("EW:") and text[0].startswith("Overturning probability 40 % (") and "NS: overturns" in " ".join(text)
     assert "UP:" not in " ".join(card_text([falls, effect("UP", None, 0.0)]))
+
+
+def test_worst_direction_of_equal_probabilities_is_that_of_the_object():
+    """The card named EW, of the smaller factor to overturning, and the figure below NS the worst component."""
+    pair = [
+        replace(effect(name, time, 1.0), assessment=SimpleNamespace(assessment=SimpleNamespace(**ENTIRE, least_factor=factor)))
+        for name, time, factor in (("NS", 40.0, 0.17), ("EW", 41.0, 0.15))
+    ]
+    assert max(pair, key=rank).response.motion.name == "EW"
 
 
 @pytest.mark.parametrize(("share", "message"), [(0.0, "3 % of those with 0 of 20"), (0.5, ""), (1.0, "2 % of those with 20 of 20")])

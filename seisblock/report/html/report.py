@@ -176,7 +176,8 @@ def _picture(effect: ModelResponse, *, of: int) -> Picture:
     """Return the figure of an effect; the caption marks the governing one of several."""
     text = N_("{what}, {name}") if of == 1 else N_("{what}, {name} (worst component)")
     caption = gettext(text, name=effect.response.motion.name, what=gettext(words.section(effect).title))
-    return embed_figure(build_localized(lambda: response_figure([effect.response])), caption)
+    known = [] if effect.assessment is None else [effect.assessment.assessment.overturning_probability]
+    return embed_figure(build_localized(lambda: response_figure([effect.response], probabilities=known)), caption)
 
 
 def _criteria(data: ReportData, body: BodyResponses, effects: Sequence[ModelResponse]) -> dict[str, Any]:

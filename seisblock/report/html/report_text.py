@@ -11,6 +11,7 @@ from seisblock.models.respond.describe import describe as respond_verdict
 from seisblock.output.text.section import Section
 from seisblock.report.text.assessment import headline
 from seisblock.report.text.respond import probability_sentence, variation_text
+from seisblock.studies.assessment import severity_key
 from seisblock.studies.report.responses import ModelResponse
 from seisblock.studies.rocking.margin import Margin
 
@@ -27,9 +28,10 @@ def section(effect: ModelResponse) -> Section:
     return value
 
 
-def rank(effect: ModelResponse) -> tuple[float, float]:
-    """Return the sort key of severity of a direction: overturning probability, then severity of the nominal body."""
-    return _overturned_share(effect), severity(effect)
+def rank(effect: ModelResponse) -> tuple[float, ...]:
+    """Return the sort key of severity of a direction: that of the worst direction of an object, then severity of the nominal body."""
+    key = (_overturned_share(effect), 0.0, 0.0) if effect.assessment is None else severity_key(effect.assessment.assessment)
+    return *key, severity(effect)
 
 
 def _overturned_share(effect: ModelResponse) -> float:
