@@ -6,14 +6,15 @@ import io
 import json
 import re
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from seisblock.core.errors import RecordError, RecordFormatError
+from seisblock.core import checks
+from seisblock.core.errors import KindError, RecordError, RecordFormatError
 from seisblock.readers._header import drop_missing
 from seisblock.readers.limits import ReadBudget
 from seisblock.readers.source import MAX_QUOTED_LENGTH, RawFile, decode_text, read_bytes, resolve_path
@@ -96,7 +97,10 @@ def load_event(event: Any) -> EventSource:
     if isinstance(event, EventSource):
         return event
     if not isinstance(event, (str, Path)):
-        return _from_catalog("event", [event] if hasattr(event, "preferred_origin") else event)
+        events = [event] if hasattr(event, "preferred_origin") else event
+        if not isinstance(events, Iterable) or not all(hasattr(item, "preferred_origin") for item in events):
+            raise KindError("expected a QuakeML file or an ObsPy Event, found {found}", found=checks.type_name(event))
+        return _from_catalog("event", list(events))
     path = resolve_path(event)
     file = RawFile(str(event), read_bytes(path, str(event), ReadBudget()), path)
     if not file.data.strip():

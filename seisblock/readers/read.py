@@ -77,7 +77,7 @@ def read(
     inventory : path, ObsPy Inventory or None
         StationXML with the instrument response of counts; None uses a StationXML beside the file or in the archive.
     event : path, ObsPy Event or None
-        QuakeML or JSON file with the earthquake; None uses a QuakeML beside a miniSEED or SAC file, if its origin time matches.
+        QuakeML or JSON file with the earthquake; None uses a QuakeML beside a file that ObsPy reads, if its origin time matches.
     differentiate : bool
         Whether velocities of a seismometer are differentiated; they are rejected otherwise.
     response : {"sensitivity", "full"}

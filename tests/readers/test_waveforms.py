@@ -310,6 +310,27 @@ def test_round_trip_through_obspy_is_exact():
         assert copy.history == record.history
 
 
+@pytest.mark.parametrize("event", [5, ["a"], [None]], ids=str)
+def test_from_obspy_rejects_what_is_no_event(event):
+    """In one sentence."""
+    with pytest.raises(KindError, match="expected a QuakeML file or an ObsPy Event"):
+        Record.from_obspy(obspy.Stream([trace("HNN")]), event=event, inventory=inventory(channel("HNN")))
+
+
+def test_from_obspy_aligns_channels_by_time():
+    """Channels of a data centre start at their own first samples, as in files."""
+    stream = obspy.Stream([trace(f"HN{c}") for c in "NEZ"])
+    stream[1].stats.starttime += 0.5 + 0.3 * DT
+    record = Record.from_obspy(stream, units="gal")
+    skip = round(0.5 / DT)
+    assert record.samples == stream[0].stats.npts - skip
+    np.testing.assert_array_equal(record.component("NS").acceleration, stream[0].data[skip:] / 100.0)
+    assert [str(line) for line in record.history[:2]] == [
+        f"components cut to their common window, {record.samples} samples",
+        f"start times of components differ by up to {300 * DT:g} ms after alignment",
+    ]
+
+
 def test_from_obspy_requires_a_response_for_counts():
     """Integers are counts; an inventory, an attached response or ObsPy's own removal gives their unit; the stream stays as it was."""
     stream = obspy.Stream([trace(f"HN{c}") for c in "NEZ"])

@@ -180,6 +180,7 @@ FORMAT = register(
         matches=is_gse,  # text files, which are not tables
         specificity=0,
         options=(*WAVEFORM_OPTIONS, "format"),
+        aligned=True,
         plugin=False,
     )
 )
