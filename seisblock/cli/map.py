@@ -226,8 +226,8 @@ def _station_body(
     from seisblock.cli.bodies.body_spec import OWN_OPTIONS, make_body_spec
     from seisblock.core.registry import get_solver
     from seisblock.studies.batch.run import ignored_column_notes
-    from seisblock.studies.capabilities import capabilities
     from seisblock.studies.map.station_response import StationBody
+    from seisblock.studies.solvers import solver_studies
 
     context = click.get_current_context()
     given_names = [name for name in OWN_OPTIONS if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
@@ -242,7 +242,7 @@ def _station_body(
     for note in ignored_column_notes(model, [spec]):
         warning(note)
     info("body: {says}", says=placement.name)
-    default_runs = DEFAULT_RUNS if capabilities(solver).probability is not None else 0
+    default_runs = DEFAULT_RUNS if solver_studies(solver).samples_in_rows else 0
     return StationBody(
         placement.body,
         placement.options,

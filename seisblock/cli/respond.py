@@ -80,10 +80,10 @@ def respond(
     from seisblock.report.json.respond import document
     from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.respond import tables
-    from seisblock.studies.assessment import assess_respond
     from seisblock.studies.azimuth_probability import average_azimuths
     from seisblock.studies.respond.probability import check_moved, summarize
     from seisblock.studies.sampling import ParameterVariation, sample
+    from seisblock.studies.solvers.respond import assess_respond
 
     variants = list_variants(params)
     variation = ParameterVariation(**pop_spreads(params, *VARIED_PARAMETERS))

@@ -82,11 +82,11 @@ def solve_in_space(
     from seisblock.report.json.rigid3d import document
     from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.rigid3d import tables
-    from seisblock.studies.assessment import assess_rigid3d
     from seisblock.studies.azimuth_probability import sample_orientations
     from seisblock.studies.respond.azimuths import rigid3d_directions
     from seisblock.studies.respond.probability import check_moved, summarize_spatial
     from seisblock.studies.sampling import sample
+    from seisblock.studies.solvers.rigid3d import assess_rigid3d
 
     if choice.mu_kinetic not in (None, choice.mu):
         raise BodyError("three dimensions use one friction coefficient, and this body has a lower kinetic one: give --mu")

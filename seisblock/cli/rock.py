@@ -116,12 +116,12 @@ def rock(
     from seisblock.report.json.rock import document
     from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.rock import tables
-    from seisblock.studies.assessment import assess_rock
     from seisblock.studies.azimuth_probability import average_azimuths
     from seisblock.studies.model_comparison import compare_models
     from seisblock.studies.rocking.margin import find_margin, flag_near_flip
     from seisblock.studies.rocking.perturb import summarize
     from seisblock.studies.sampling import RUNS, ParameterVariation, sample
+    from seisblock.studies.solvers.rock import assess_rock
 
     if not margin:
         reject_without("--margin", ["margin_limit"])

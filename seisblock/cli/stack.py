@@ -212,11 +212,11 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
     from seisblock.report.json.stack import document
     from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.stack import tables
-    from seisblock.studies.assessment import assess_pile
     from seisblock.studies.model_comparison import compare_pile_models
     from seisblock.studies.respond.pile_probability import summarize
     from seisblock.studies.respond.probability import check_moved
     from seisblock.studies.sampling import ParameterVariation, sample
+    from seisblock.studies.solvers.stack import assess_pile
 
     variation = ParameterVariation(**widths)
     inset_given = click.get_current_context().get_parameter_source("vary_inset") is not ParameterSource.DEFAULT

@@ -94,7 +94,9 @@ class Solver:
     spatial : bool
         True if the body meets all components in three dimensions, with its own orientation; else it is reduced to the plane of the motion.
     topics : tuple of str
-        Topics of its references, see :mod:`seisblock.references`.
+        Topics of its references, see :mod:`seisblock.references`; the first one holds for every run.
+    command_topics : tuple of str
+        Further topics of its command.
     """
 
     name: str
@@ -120,6 +122,7 @@ class Solver:
     threshold: Callable[[Any, Any], tuple[float, float]] | None = None
     spatial: bool = False
     topics: tuple[str, ...] = ()
+    command_topics: tuple[str, ...] = ()
 
     @cached_property
     def body_columns(self) -> frozenset[str]:

@@ -79,8 +79,6 @@ def find_citations(texts: Iterable[str]) -> tuple[str, ...]:
 
 
 COMMAND_PAPERS: dict[str, tuple[str, ...]] = {
-    "rock": papers("rocking", "overturning criteria", "scenario", "synthetic records"),
-    "respond": papers("all modes", "two-layer body", "rigid body in space"),
     "measure": papers("measures", "response spectrum"),
     "batch": papers("all modes", "two-layer body"),
     "map": papers("measures", "all modes", "gravestones as fitted", "intensity of a velocity"),
@@ -98,7 +96,7 @@ COMMAND_PAPERS: dict[str, tuple[str, ...]] = {
         "measures", "response spectrum", "all modes", "rocking", "sliding", "jump", "uplift", "overturning criteria", "two-layer body"
     ),
 }
-"""Papers used by each command, where they are not those of its solver alone; each JSON document lists those of its result."""
+"""Papers used by each command that is no solver; each JSON document lists those of its result."""
 
 
 def cited_commands() -> tuple[str, ...]:
@@ -108,4 +106,7 @@ def cited_commands() -> tuple[str, ...]:
 
 def command_papers(command: str) -> tuple[str, ...]:
     """Return the keys of the papers of a command: those of its solver, or of its study."""
-    return COMMAND_PAPERS[command] if command in COMMAND_PAPERS else papers(*get_solver(command).topics)
+    if command in COMMAND_PAPERS:
+        return COMMAND_PAPERS[command]
+    solver = get_solver(command)
+    return papers(*solver.topics, *solver.command_topics)

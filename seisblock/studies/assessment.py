@@ -7,40 +7,25 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from seisblock.bodies.block import Block
-from seisblock.bodies.convex import convex_body
 from seisblock.bodies.factory import block_for_motion
 from seisblock.bodies.pile.pile import Pile
-from seisblock.bodies.scan.body import EAST, ScannedBody
+from seisblock.bodies.scan.body import ScannedBody
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ComponentError, ParameterError, SolverError
 from seisblock.core.i18n import N_
 from seisblock.core.results import Response
-from seisblock.core.typing import BoolArray, FloatArray, Progress
+from seisblock.core.typing import Progress
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.models.respond.batch import respond_many
 from seisblock.models.respond.options import RespondOptions
-from seisblock.models.respond.solve import respond_params
-from seisblock.models.rigid3d.outcome import Rigid3dOutcome
-from seisblock.models.rigid3d.solve import solve_rigid3d
-from seisblock.models.rock.options import RockOptions
 from seisblock.models.stack.options import StackOptions
-from seisblock.models.stack.outcome import StackOutcome
-from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion, Record, motion_of
-from seisblock.records._validation import Gain, vertical_gain
-from seisblock.studies.model_comparison import PILE, ModelComparison, ModelResult, compare_models, compare_pile_models
-from seisblock.studies.predictability import (
-    respond_predictable_until,
-    rigid3d_predictable_until,
-    rock_predictable_until,
-    stack_predictable_until,
-)
+from seisblock.records._validation import Gain
+from seisblock.studies.model_comparison import ModelComparison, ModelResult
 from seisblock.studies.respond.best_estimate import no_slip_friction
 from seisblock.studies.sampling import MOVED_M, PILE_RUNS, RUNS, ParameterVariation, Samples, join_directions, sample
+from seisblock.studies.solvers import solver_studies
 
 LIKELY, MAY, MOVES, STAYS = N_("likely overturns"), N_("may overturn"), N_("moves"), N_("stays")
 """Classes, the most severe first."""
@@ -48,17 +33,8 @@ LIKELY, MAY, MOVES, STAYS = N_("likely overturns"), N_("may overturn"), N_("move
 LIKELY_SHARE, MAY_SHARE = 0.5, 0.05
 """Smallest probabilities of the classes ``likely overturns`` and ``may overturn``; the latter also holds for ``moves``."""
 
-FULL_RESPONSE = N_("full response")
-"""Name of the model of :mod:`seisblock.models.respond` among the models of an object."""
-
-THREE_DIMENSIONS = N_("three dimensions")
-"""Name of the model of :mod:`seisblock.models.rigid3d` among the models of an object."""
-
-MIN_FACTOR, MAX_FACTOR, FACTOR_STEP, REFINEMENT = 0.02, 4.0, 1.05, 16
-"""Smallest and largest factor of the search for the first overturning, ratio of consecutive factors, parts of the last step."""
-
-PILE_STEP, PILE_BISECTIONS, MIN_PILE_FACTOR = 1.25, 3, 0.05
-"""The same for a pile or a body in three dimensions, whose runs are expensive: ratio of consecutive factors, halvings, smallest factor."""
+MAX_FACTOR, RUN_STEP, RUN_BISECTIONS, MIN_RUN_FACTOR = 4.0, 1.25, 3, 0.05
+"""Largest factor of a search for overturning; ratio of consecutive factors, halvings and smallest factor of one run by run."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -258,20 +234,14 @@ def assess_direction(
 
     Parameters
     ----------
-    solver : str
-        ``respond``, ``rock``, ``rigid3d`` or ``stack``.
-    body, motion, options, runs, priors, seed, progress
+    solver, body, motion, options, runs, priors, seed, progress
         As in :func:`~seisblock.studies.sampling.sample`.
     moved_m : float, m
     """
     samples = sample(solver, body, motion, options, runs, priors, seed=seed, progress=progress)
-    if solver == "stack":
-        return assess_pile(solve_stack(body, motion, **options.keywords()), samples, moved_m=moved_m)
-    if solver == "rigid3d":
-        return assess_rigid3d(solve_rigid3d(body, motion, **options.keywords()), samples, moved_m=moved_m)
-    if solver == "rock":
-        return assess_rock(body, motion, options, samples)
-    return assess_respond(body, motion, options, samples, moved_m=moved_m)
+    assess_samples = solver_studies(solver).assess
+    assert assess_samples is not None
+    return assess_samples(body, motion, options, samples, moved_m=moved_m)
 
 
 def assess_record(solver: str, body: Block | ScannedBody, record: Record, options: Any, runs: int, *, seed: int = 0) -> Assessment:
@@ -279,9 +249,7 @@ def assess_record(solver: str, body: Block | ScannedBody, record: Record, option
 
     Parameters
     ----------
-    solver : str
-        ``respond`` or ``rock``.
-    body, record, options, runs, seed
+    solver, body, record, options, runs, seed
         As in :func:`assess_direction`.
     """
     motions = _motions(record, (), several=True)
@@ -316,101 +284,6 @@ def _friction(block: Block) -> float:
     return no_slip_friction(block)
 
 
-def assess_respond(
-    block: Block, motion: Motion, options: RespondOptions, samples: Samples, *, moved_m: float = MOVED_M
-) -> DirectionAssessment:
-    """Return the assessment of a free-standing object in one direction.
-
-    Parameters
-    ----------
-    block, motion, options
-        As in :func:`~seisblock.models.respond.solve.solve_respond`.
-    samples : Samples
-        Of the same object, motion and options.
-    moved_m : float, m
-    """
-    respond_result = _full_response(block, motion, options)
-    rocking = RockOptions(vertical=options.vertical, gravity=options.gravity)
-    comparison = compare_models(block, motion, extra_results=() if respond_result is None else (respond_result,), options=rocking)
-    until = respond_predictable_until(block, motion, options)
-    return DirectionAssessment(samples, _assessment(samples, comparison.opinions, until, motion.name, moved_m), comparison, moved_m)
-
-
-def assess_rock(
-    block: Block, motion: Motion, options: RockOptions, samples: Samples, *, comparison: ModelComparison | None = None
-) -> DirectionAssessment:
-    """Return the assessment of a rocking block in one direction; it ends in its place unless it overturns.
-
-    Parameters
-    ----------
-    block, motion, options
-        As in :func:`~seisblock.models.rock.solve.solve_rock`.
-    samples : Samples
-        Of the same block, motion and options.
-    comparison : ModelComparison or None
-        Of the same block, if computed already.
-    """
-    comparison = comparison or compare_models(block, motion, options=options)
-    until = rock_predictable_until(block, motion, options)
-    return DirectionAssessment(samples, _assessment(samples, comparison.opinions, until, motion.name, MOVED_M), comparison)
-
-
-def assess_pile(response: Response[StackOutcome], samples: Samples, *, moved_m: float = MOVED_M) -> DirectionAssessment:
-    """Return the assessment of a pile: a fall of any stone counts.
-
-    Parameters
-    ----------
-    response : Response
-        Of :func:`~seisblock.models.stack.solve.solve_stack`.
-    samples : Samples
-        Of the same pile, motion and options.
-    moved_m : float, m
-    """
-    factor = _run_factor(response, solve_stack, lambda run: run.overturned_any, stop_at_fall=True)
-    pile_result = ModelResult(PILE, response.outcome.overturned_any, factor)
-    comparison = compare_pile_models(response, pile_result)
-    results = (pile_result,) if comparison is None else comparison.opinions
-    until = stack_predictable_until(response)
-    return DirectionAssessment(samples, _assessment(samples, results, until, response.motion.name, moved_m), comparison, moved_m)
-
-
-def assess_rigid3d(response: Response[Rigid3dOutcome], samples: Samples, *, moved_m: float = MOVED_M) -> DirectionAssessment:
-    """Return the assessment of an object in three dimensions, beside the full response in the plane of either horizontal.
-
-    Parameters
-    ----------
-    response : Response
-        Of :func:`~seisblock.models.rigid3d.solve.solve_rigid3d`.
-    samples : Samples
-        Of the same body, motion and options.
-    moved_m : float, m
-    """
-    result = ModelResult(THREE_DIMENSIONS, response.outcome.overturned, _run_factor(response, solve_rigid3d, lambda run: run.overturned))
-    planar = _planar_result(response)
-    results = (result,) if planar is None else (result, planar)
-    until = rigid3d_predictable_until(response)
-    return DirectionAssessment(samples, _assessment(samples, results, until, response.motion.name, moved_m), None, moved_m)
-
-
-def _planar_result(response: Response[Rigid3dOutcome]) -> ModelResult | None:
-    """Return the full response of the object in the vertical planes of both horizontals; None without a result."""
-    solid, motion, options = convex_body(response.body), response.motion, response.options
-    low = float(solid.points[:, 2].min())
-    base = tuple((x, y) for x, y in solid.support_polygon.tolist())
-    centre = (*solid.centre[:2], solid.centre[2] - low)
-    standing = ScannedBody(solid.name, solid.mass, float(np.ptp(solid.points[:, 2])), centre, solid.inertia, base, facing=EAST)
-    rotated = (motion.transverse, -motion.horizontal, motion.vertical)
-    cases = [(standing.block_toward(EAST), motion)]
-    if options.across and motion.transverse.any():
-        cases.append((standing.block_toward(EAST - 90.0), Motion(rotated, motion.dt, motion.name, motion.start_s, motion.record)))
-    planar = RespondOptions(
-        mu=options.mu, restitution=options.restitution, vertical=options.vertical, gravity=options.gravity, settle_s=options.settle_s
-    )
-    results = [result for block, rows in cases if (result := _full_response(block, rows, planar)) is not None]
-    factors = [result.factor for result in results if result.factor is not None]
-    return ModelResult(FULL_RESPONSE, any(result.falls for result in results), min(factors, default=None)) if results else None
-
-
 def assess_object(parts: Sequence[DirectionAssessment]) -> Assessment:
     """Return the assessment of an object under any of several directions of one record.
 
@@ -431,7 +304,7 @@ def assess_object(parts: Sequence[DirectionAssessment]) -> Assessment:
     untils = [part.assessment.predictable_until_s for part in parts if part.assessment.predictable_until_s is not None]
     worst = max(parts, key=lambda part: severity_key(part.assessment))
     samples = join_directions([part.samples for part in parts])
-    return _assessment(samples, list(results.values()), min(untils, default=None), worst.assessment.direction, worst.moved_m)
+    return make_assessment(samples, list(results.values()), min(untils, default=None), worst.assessment.direction, worst.moved_m)
 
 
 def severity_key(assessment: Assessment) -> tuple[float, float, float]:
@@ -456,9 +329,10 @@ def assess_objects(parts: Iterable[tuple[Hashable, DirectionAssessment | None]])
     return [assess_object(group) if len(group) > 1 else None for group in groups.values()]
 
 
-def _assessment(
+def make_assessment(
     samples: Samples, results: Sequence[ModelResult], predictable_until_s: float | None, direction: str, moved_m: float
 ) -> Assessment:
+    """Return the assessment from samples and the results of the models of the nominal object."""
     factors = [result.factor for result in results if result.factor is not None]
     moved = samples.moved_probability(moved_m)
     return Assessment(
@@ -475,33 +349,7 @@ def _assessment(
     )
 
 
-def _full_response(block: Block, motion: Motion, options: RespondOptions) -> ModelResult | None:
-    """Return verdict and first overturning factor of the full response; None if the run itself has no result."""
-    unit = np.array([1.0, 0.0, vertical_gain(motion, options.vertical)])
-    params = respond_params(block, options)
-
-    def falls(factors: FloatArray) -> tuple[BoolArray, BoolArray]:
-        result = respond_many([params] * len(factors), motion, gains=factors[:, None] * unit, settle_s=options.settle_s)
-        return result.overturned & ~result.gave_up, result.gave_up
-
-    count = math.ceil(math.log(MAX_FACTOR / MIN_FACTOR) / math.log(FACTOR_STEP))
-    factors = np.append(MAX_FACTOR * FACTOR_STEP ** -np.arange(count, -1.0, -1.0), 1.0)
-    if not motion.horizontal.any():
-        return ModelResult(FULL_RESPONSE, False, None)
-    fallen, stopped = falls(factors)
-    if stopped[-1]:
-        return None
-    verdict, fallen = bool(fallen[-1]), fallen[:-1]
-    if not fallen.any():
-        return ModelResult(FULL_RESPONSE, verdict, 1.0 if verdict else None)
-    first = int(np.argmax(fallen))
-    if first == 0:
-        return ModelResult(FULL_RESPONSE, verdict, float(factors[0]))
-    fine = np.linspace(factors[first - 1], factors[first], REFINEMENT + 1)[1:]
-    return ModelResult(FULL_RESPONSE, verdict, float(fine[int(np.argmax(falls(fine)[0]))]))
-
-
-def _run_factor(
+def run_factor(
     response: Response[Any], solve: Callable[..., Response[Any]], overturns: Callable[[Any], bool], **keywords: Any
 ) -> float | None:
     """Return the factor nearest to 1 at which an object begins to fall, to 3 %; None if it stands up to :data:`MAX_FACTOR`."""
@@ -518,14 +366,14 @@ def _run_factor(
         return None
     low = high = 1.0
     if overturns(response.outcome):
-        while low > MIN_PILE_FACTOR and falls(low := low / PILE_STEP):
+        while low > MIN_RUN_FACTOR and falls(low := low / RUN_STEP):
             high = low
     else:
-        while not falls(high := high * PILE_STEP):
+        while not falls(high := high * RUN_STEP):
             low = high
             if high >= MAX_FACTOR:
                 return None
-    for _ in range(PILE_BISECTIONS):
+    for _ in range(RUN_BISECTIONS):
         middle = math.sqrt(low * high)
         low, high = (low, middle) if falls(middle) else (middle, high)
     return high

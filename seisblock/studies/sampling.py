@@ -9,7 +9,7 @@ the model and the direction, so that samples of several directions can be joined
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,7 +18,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import BlockArray, samples, wear_shares, within
 from seisblock.bodies.convex import ConvexBody, convex_body
-from seisblock.bodies.pile.edge_wear import widest_wear, worn_to
+from seisblock.bodies.pile.edge_wear import worn_to
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.core import checks
@@ -26,27 +26,24 @@ from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, check_limit
+from seisblock.core.registry import solver_names
 from seisblock.core.results import Status
 from seisblock.core.typing import BoolArray, FloatArray, Progress
-from seisblock.models.respond.batch import RespondBatchResult, no_answer, respond_many
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.params import RespondBatchParams
-from seisblock.models.respond.solve import respond_params
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome, build_outcome
 from seisblock.models.rigid3d.solve import Body as RigidBody
-from seisblock.models.rigid3d.solve import facing_body, ground_acceleration, validate_motion_and_body
+from seisblock.models.rigid3d.solve import facing_body, ground_acceleration
 from seisblock.models.rigid3d.solve import run as run_rigid3d
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import RockBatchParams, rock_batch_params
-from seisblock.models.stack.options import EDGES, StackOptions
-from seisblock.models.stack.outcome import StackOutcome
-from seisblock.models.stack.solve import solve_stack
+from seisblock.models.stack.options import StackOptions
 from seisblock.records import Motion
-from seisblock.records._validation import Gain, validate_inputs, vertical_gain
+from seisblock.records._validation import Gain, vertical_gain
 from seisblock.studies.intervals import clopper_pearson
 from seisblock.studies.parallel import map_threads
-from seisblock.studies.rocking.verdicts import parallel_verdicts
+from seisblock.studies.solvers import solver_studies, solvers_with
 
 RUNS = 200
 """Default number of samples of a block."""
@@ -62,9 +59,6 @@ MAX_RESTITUTION = 0.95
 
 HEIGHT, INSET, MU, RESTITUTION, AMPLITUDE, AZIMUTH, WIDTH, SLENDERNESS, STONES = range(9)
 """Columns of the draws; from ``STONES`` on, one column per stone of a pile, for its friction."""
-
-CHUNK_SIZE = 100
-"""Samples between two progress reports."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -169,6 +163,25 @@ class Samples(DisplayMixin):
         return moved
 
 
+@dataclass(frozen=True, eq=False)
+class Sampling:
+    """Task of a solver: samples of one object in one direction, with the arguments of :func:`sample` and its draws."""
+
+    solver: str
+    body: Any
+    motion: Motion
+    options: Any
+    draws: FloatArray
+    variation: ParameterVariation
+    seed: int
+    progress: Progress | None
+    workers: int | None
+
+    def results(self, overturned: BoolArray, displacement_m: FloatArray, no_answer: BoolArray, outcomes: tuple[Any, ...] = ()) -> Samples:
+        """Return the samples with their results."""
+        return Samples(self.solver, overturned, displacement_m, no_answer, self.variation, self.seed, outcomes)
+
+
 def sample(
     solver: str,
     body: RigidBody | Pile,
@@ -186,7 +199,7 @@ def sample(
     Parameters
     ----------
     solver : str
-        ``respond``, ``rock``, ``rigid3d`` or ``stack``.
+        One whose outcome includes overturning.
     body : Block, Scan, ScannedBody, ConvexBody or Pile
         Median of the samples, with the prior of its kind (``body.ranges``); only `rigid3d` takes scans and convex bodies.
     motion : Motion
@@ -222,18 +235,14 @@ def sample(
     >>> result.probability, result.completed
     (1.0, 20)
     """
-    run = _RUNNERS.get(solver)
+    run = solver_studies(solver).sample if solver in solver_names() else None
     if run is None:
-        raise ParameterError("{solver!r} cannot be sampled; available: {known}", solver=str(solver)[:100], known=list(_RUNNERS))
+        raise ParameterError("{solver!r} cannot be sampled; available: {known}", solver=str(solver)[:100], known=solvers_with("sample"))
     checks.instance(priors, ParameterVariation)
     checks.integer("the number of runs", runs, minimum=1)
     check_limit(N_("Monte Carlo samples"), runs, MAX_RUNS)
-    if solver == "rigid3d":
-        validate_motion_and_body(body, motion)
-    else:
-        validate_inputs(body, Pile if solver == "stack" else Block, motion)
     stones = len(body.stones) if isinstance(body, Pile) else 0
-    return run(body, motion, options, draw_samples(runs, seed, stones=stones), priors, seed, progress, workers)
+    return run(Sampling(solver, body, motion, options, draw_samples(runs, seed, stones=stones), priors, seed, progress, workers))
 
 
 def draw_samples(runs: int, seed: int, *, stones: int = 0) -> FloatArray:
@@ -430,86 +439,6 @@ def sample_motion(motion: Motion, variation: ParameterVariation, draw: FloatArra
     return Motion(rows, motion.dt, name=motion.name, start_s=motion.start_s, record=motion.record)
 
 
-def _run_respond(
-    block: Block,
-    motion: Motion,
-    options: RespondOptions,
-    draws: FloatArray,
-    variation: ParameterVariation,
-    seed: int,
-    progress: Progress | None,
-    workers: int | None,
-) -> Samples:
-    respond_params(block, options)  # validates the nominal values: samples are clipped into their ranges
-    params, gains = sample_respond_params(block, variation, draws, options), sample_gains(motion, variation, draws, options.vertical)
-    parts: list[RespondBatchResult] = []
-    # chunks allow progress reports and cancellation; the rows are independent of each other
-    for first in range(0, len(draws), CHUNK_SIZE):
-        part = slice(first, first + CHUNK_SIZE)
-        parts.append(respond_many(params[part], motion, gains=gains[part], settle_s=options.settle_s, workers=workers))
-        if progress is not None:
-            progress(min(first + CHUNK_SIZE, len(draws)), len(draws))
-    stopped, fallen, shifts = (
-        np.concatenate([getattr(result, name) for result in parts]) for name in ("gave_up", "overturned", "final_displacement_m")
-    )
-    if stopped.all():
-        raise no_answer(len(stopped), len(stopped), min(int(result.impacts.min()) for result in parts))
-    return Samples("respond", fallen & ~stopped, shifts, stopped, variation, seed)
-
-
-def _run_rock(
-    block: Block,
-    motion: Motion,
-    options: RockOptions,
-    draws: FloatArray,
-    variation: ParameterVariation,
-    seed: int,
-    progress: Progress | None,
-    workers: int | None,
-) -> Samples:
-    params = sample_rock_params(block, motion, variation, draws, options)
-    verdicts = parallel_verdicts(params, motion, sample_gains(motion, variation, draws, params.vertical), progress=progress)
-    return Samples("rock", verdicts.overturned, np.zeros(len(draws)), verdicts.gave_up, variation, seed)
-
-
-def _run_stack(
-    body: Pile,
-    motion: Motion,
-    options: StackOptions,
-    draws: FloatArray,
-    variation: ParameterVariation,
-    seed: int,
-    progress: Progress | None,
-    workers: int | None,
-) -> Samples:
-    if options.mu_kinetic is not None:
-        body, options = body.with_kinetic_friction(options.mu_kinetic), replace(options, mu_kinetic=None)
-    # wear that would tip a stone at rest is excluded, so that every sample starts from rest; the restitution of joints does not vary
-    inset = widest_wear(body, variation.inset) if options.points == EDGES else 0.0
-    variation = replace(variation, inset=inset, restitution=0.0)
-
-    def work(draw: FloatArray) -> StackOutcome | SolverError:
-        try:
-            return solve_stack(sample_pile(body, variation, draw), sample_motion(motion, variation, draw), **options.keywords()).outcome
-        except SolverError as error:
-            return error
-
-    results = list(map_threads(work, list(draws), progress=progress, workers=workers))
-    # samples without a result are counted apart, neither as fallen nor as standing
-    outcomes = tuple(result for result in results if isinstance(result, StackOutcome))
-    if not outcomes:
-        raise next(result for result in results if isinstance(result, SolverError))
-    shifts = [
-        max(math.inf if stone.state == "fallen" else stone.residual_slip_m for stone in result.stones)
-        if isinstance(result, StackOutcome)
-        else math.nan
-        for result in results
-    ]
-    fallen = np.array([isinstance(result, StackOutcome) and result.overturned_any for result in results])
-    stopped = np.array([not isinstance(result, StackOutcome) for result in results])
-    return Samples("stack", fallen, np.array(shifts), stopped, variation, seed, outcomes)
-
-
 def rigid3d_outcomes(
     body: RigidBody,
     motion: Motion,
@@ -551,20 +480,6 @@ def rigid3d_outcomes(
     return list(map_threads(work, range(len(draws)), progress=progress, workers=workers))
 
 
-def _run_rigid3d(
-    body: RigidBody,
-    motion: Motion,
-    options: Rigid3dOptions,
-    draws: FloatArray,
-    variation: ParameterVariation,
-    seed: int,
-    progress: Progress | None,
-    workers: int | None,
-) -> Samples:
-    results = rigid3d_outcomes(body, motion, options, draws, variation, progress=progress, workers=workers)
-    return rigid3d_samples(results, body, variation, seed)
-
-
 def rigid3d_samples(results: Sequence[Rigid3dOutcome | None], body: RigidBody, variation: ParameterVariation, seed: int) -> Samples:
     """Return the samples of outcomes in three dimensions, None for one that diverged.
 
@@ -581,14 +496,6 @@ def rigid3d_samples(results: Sequence[Rigid3dOutcome | None], body: RigidBody, v
     return Samples("rigid3d", fallen, shifts, np.array([result is None for result in results]), variation, seed, outcomes)
 
 
-_RUNNERS: Mapping[str, Callable[..., Samples]] = {
-    "respond": _run_respond,
-    "rock": _run_rock,
-    "rigid3d": _run_rigid3d,
-    "stack": _run_stack,
-}
-
-SAMPLED = tuple(_RUNNERS)
 """Solvers of which samples can be solved."""
 
 

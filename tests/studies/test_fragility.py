@@ -24,7 +24,6 @@ from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Component, Motion, Preparation, Record, Storey, motion_of, process
 from seisblock.records.floor import floor_motion
 from seisblock.report.exports.pelicun import pelicun_rows
-from seisblock.studies.capabilities import _CAPABILITIES, capabilities
 from seisblock.studies.fragility.capacities import capacities, moments
 from seisblock.studies.fragility.damage_states import EndStates, limit_state, limit_states
 from seisblock.studies.fragility.estimate import (
@@ -42,6 +41,7 @@ from seisblock.studies.fragility.lognormal import Lognormal, fit_fragility, fit_
 from seisblock.studies.fragility.run import prepare_bodies, run_fragility
 from seisblock.studies.fragility.runners import version_draws
 from seisblock.studies.fragility.suite import make_suite
+from seisblock.studies.solvers import solver_studies
 from tests.motions import synthetic_suite
 from tests.studies.batch.conftest import shaking
 
@@ -228,7 +228,7 @@ class TestIntensity:
     def test_damage_state_rejects_invalid_name(self, text, solver):
         """An unknown name, a threshold that is missing or too many, and what a solver does not answer."""
         with pytest.raises(ParameterError):
-            limit_states(text, solver, capabilities(solver).limits)
+            limit_states(text, solver, solver_studies(solver).limits)
 
 
 class TestRuns:
@@ -246,7 +246,7 @@ class TestRuns:
         ends = {}
         for solver, body, options in (("rock", SHELF, {}), ("respond", SHELF, {"mu": 0.3}), ("slide", 0.2, {})):
             (placed,) = prepare_bodies([body], solver, options)
-            ends[solver] = capabilities(solver).end_states(placed, motion, factors, None)
+            ends[solver] = solver_studies(solver).end_states(placed, motion, factors, None)
         single = [solve_rock(SHELF, item).outcome for item in scaled]
         assert ends["rock"].overturned.tolist() == [item.overturned for item in single]
         assert ends["rock"].tilt_ratio == pytest.approx([item.max_rotation_ratio for item in single], rel=1e-9)
@@ -273,7 +273,7 @@ class TestRuns:
         assert bouncy.min() < 0.0 < bouncy.max()
         for solver, options in (("rock", {"restitution": 0.9}), ("respond", {"mu": 0.5})):
             (placed,) = prepare_bodies([shelf], solver, options)
-            ends = capabilities(solver).end_states(placed, motion, factors, draws)
+            ends = solver_studies(solver).end_states(placed, motion, factors, draws)
             single = []
             for factor in factors:
                 item = Motion(motion.acceleration * factor, motion.dt)
@@ -296,7 +296,7 @@ class TestRuns:
         (placed,) = prepare_bodies("lantern", "stack", {"points": 2})
         record = Preparation(window=(25.0, 26.0)).apply(seisblock.read("synthetic_jma.csv"))
         motion = motion_of(record, "EW")
-        ends = capabilities("stack").end_states(placed, motion, np.array([0.1]), None)
+        ends = solver_studies("stack").end_states(placed, motion, np.array([0.1]), None)
         outcome = solve_stack(placed.body, Motion(0.1 * motion.acceleration, motion.dt, record=record), points=2).outcome
         assert ends.overturned.tolist() == [outcome.overturned_any]
         assert ends.slip_m[0] == max(outcome.residual_slip_m.values())
@@ -441,7 +441,7 @@ class TestScatter:
         motion = motion_of(records[4], "EW")
         (placed,) = prepare_bodies([SHELF], "rock", {})
         factor = 1.4
-        ends = capabilities("rock").end_states(placed, motion, np.array([factor]), version_draws(60, 7))
+        ends = solver_studies("rock").end_states(placed, motion, np.array([factor]), version_draws(60, 7))
         scaled = Motion(motion.acceleration * factor, motion.dt)
         same = seisblock.uncertainty.perturb(
             SHELF, scaled, 60, spread=seisblock.uncertainty.ParameterVariation(amplitude=0.0, azimuth_deg=0.0), seed=7
@@ -547,7 +547,7 @@ def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch,
         return run_fragility(records, SHELF, "respond", mu=0.7, im="pgv", levels=levels, method=method, bootstrap=20)
 
     full = study()
-    follow, calls = capabilities("respond").end_states, []
+    follow, calls = solver_studies("respond").end_states, []
 
     def lossy(placed, motion, factors, draws):
         ends = follow(placed, motion, factors, draws)
@@ -556,7 +556,8 @@ def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch,
         gave_up[1] = len(calls) == 1
         return EndStates(ends.overturned & ~gave_up, ends.tilt_ratio, ends.slip_m, gave_up)
 
-    monkeypatch.setitem(_CAPABILITIES, "respond", replace(_CAPABILITIES["respond"], end_states=lossy))
+    studies = replace(solver_studies("respond"), end_states=lossy)
+    monkeypatch.setattr("seisblock.studies.fragility.run.solver_studies", lambda name: studies)
     partial = study()
     curve = partial.curves[0]
     assert (full.curves[0].no_answer, curve.no_answer) == (0, 1)

@@ -14,7 +14,6 @@ from seisblock.models.stack.options import StackOptions
 from seisblock.models.stack.solve import solve_stack
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
-from seisblock.studies import sampling
 from seisblock.studies.intervals import clopper_pearson
 from seisblock.studies.respond.pile_probability import stack_probability
 from seisblock.studies.sampling import (
@@ -184,7 +183,7 @@ def test_pile_samples_that_create_energy_are_excluded(monkeypatch):
             raise SolverError("created energy")
         return solve_stack(body, motion, **options)
 
-    monkeypatch.setattr(sampling, "solve_stack", sometimes)
+    monkeypatch.setattr("seisblock.studies.solvers.stack.solve_stack", sometimes)
     result = stack_probability(PILE, PULSE, runs=8, seed=3, workers=1)
     assert (result.runs, result.left_out_count) == (6, 2)
     assert result.interval == clopper_pearson(round(6 * result.overturned), 6)

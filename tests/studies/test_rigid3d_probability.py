@@ -23,11 +23,12 @@ from seisblock.models.rigid3d.describe import describe
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rigid3d.plot import figure
 from seisblock.report.text.assessment import assessment_lines
-from seisblock.studies.assessment import THREE_DIMENSIONS, assess_direction
+from seisblock.studies.assessment import assess_direction
 from seisblock.studies.azimuth_probability import AzimuthAverage
 from seisblock.studies.respond.azimuths import Rigid3dAzimuth
 from seisblock.studies.respond.probability import summarize_spatial
 from seisblock.studies.sampling import ParameterVariation, draw_samples, sample, sample_solids
+from seisblock.studies.solvers.rigid3d import THREE_DIMENSIONS
 
 FIXED = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
 

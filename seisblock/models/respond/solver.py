@@ -52,5 +52,6 @@ SOLVER = register(
         section="seisblock.models.respond.describe:SECTION",
         document="seisblock.models.respond.document:DOCUMENT",
         topics=("all modes", "two-layer body"),
+        command_topics=("rigid body in space",),
     )
 )

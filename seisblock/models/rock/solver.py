@@ -42,5 +42,6 @@ SOLVER = register(
         section="seisblock.models.rock.describe:SECTION",
         document="seisblock.models.rock.document:DOCUMENT",
         topics=("rocking",),
+        command_topics=("overturning criteria", "scenario", "synthetic records"),
     )
 )

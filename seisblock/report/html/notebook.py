@@ -30,7 +30,7 @@ from seisblock.report.text.assessment import headline, predictability_text
 from seisblock.studies.assessment import Assessment
 from seisblock.studies.fragility.results import FragilityStudy
 from seisblock.studies.rocking.spectrum import RockingSpectrum
-from seisblock.studies.sampling import SAMPLED
+from seisblock.studies.solvers import solver_studies
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -86,7 +86,7 @@ def html(value: Any) -> str:
 
 def _has_probability(value: Any) -> bool:
     """Return whether a value is a single run of a model with samples."""
-    return isinstance(value, Response) and value.model in SAMPLED
+    return isinstance(value, Response) and solver_studies(value.model).sample is not None
 
 
 def _figure(value: Any) -> Figure:

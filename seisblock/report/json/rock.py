@@ -15,12 +15,12 @@ from seisblock.output.json.solver import document as solver_document
 from seisblock.output.json.solver import solver_schema
 from seisblock.report.json.assessment import ALL_AZIMUTHS_KEY, ASSESSMENT_KEY, OBJECT_KEY, VARIANT_KEYS, entry_keys, object_keys
 from seisblock.report.json.peaks import peak_schema
-from seisblock.studies.assessment import assess_rock
 from seisblock.studies.model_comparison import ModelComparison
 from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.rocking.margin import Margin, flag_near_flip
 from seisblock.studies.rocking.perturb import Perturbation
 from seisblock.studies.sampling import sample
+from seisblock.studies.solvers.rock import assess_rock
 
 ROCK = solver_schema(
     "rock",

@@ -29,7 +29,7 @@ PROBABILITY_COLUMNS: Mapping[str, type] = {
 """Columns and their types; `probability_overturned` and `probability_moved` are the older names of two of them."""
 
 
-def probability_columns(solver_body: SolverBody, motion: Motion, runs: int, seed: int, *, solver: str) -> Row:
+def probability_columns(solver: str, solver_body: SolverBody, motion: Motion, runs: int, seed: int) -> Row:
     """Return the probability columns of a body, with a warning for samples without a result."""
     samples = sample(solver, solver_body.body, motion, solver_body.options, runs, seed=seed)
     overturned, moved, (low, high) = samples.probability, samples.moved_probability(), samples.interval

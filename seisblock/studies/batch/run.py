@@ -22,8 +22,8 @@ from seisblock.records import Preparation, Record
 from seisblock.studies.batch.table import BatchTable, Row, batch_columns
 from seisblock.studies.batch.task import Plan, build_solver_bodies, failure_row, record_rows
 from seisblock.studies.batch.worst_azimuth import check_all_azimuths, is_all_azimuths
-from seisblock.studies.capabilities import capabilities
 from seisblock.studies.parallel import MAX_PENDING_RECORDS, map_threads
+from seisblock.studies.solvers import solver_studies
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -120,7 +120,7 @@ def make_plan(
     checks.instance(preparation, Preparation)
     if not (isinstance(runs, int) and runs >= 0):
         raise ParameterError("the number of samples must be a whole number, 0 for none; found {runs}", runs=runs)
-    if runs and capabilities(solver).probability is None:
+    if runs and not solver_studies(solver).samples_in_rows:
         raise ParameterError("{solver} does not support samples: omit `runs`, or use respond or rock", solver=solver)
     model.check_options(options)
     body_list = named_bodies(bodies, model)

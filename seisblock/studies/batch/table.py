@@ -10,9 +10,9 @@ from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.registry import Solver
 from seisblock.studies.batch.directions import DIRECTIONS, FALLEN_DIRECTIONS
+from seisblock.studies.batch.probability import PROBABILITY_COLUMNS
 from seisblock.studies.batch.scalar_fields import scalar_fields
 from seisblock.studies.batch.shaking import BODY_COLUMNS, SHAKING_COLUMNS
-from seisblock.studies.capabilities import capabilities
 
 if TYPE_CHECKING:
     import pandas
@@ -28,7 +28,7 @@ REASON, WARNINGS = "failure", "warnings"
 
 def batch_columns(solver: Solver, *, runs: int = 0, all_azimuths: bool = False) -> dict[str, type]:
     """Return the columns of a batch with their types, including shaking, probabilities and azimuth sweeps."""
-    probability_columns = capabilities(solver.name).probability_columns if runs else {}
+    probability_columns = PROBABILITY_COLUMNS if runs else {}
     directions: dict[str, type] = {DIRECTIONS: int} if all_azimuths else {}
     if all_azimuths and solver.event == "overturned":
         directions[FALLEN_DIRECTIONS] = int

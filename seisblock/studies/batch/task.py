@@ -22,12 +22,12 @@ from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.qc_report import qc_summary, require_clean
 from seisblock.records.site import matches_station
-from seisblock.studies.batch.probability import LEFT_OUT
+from seisblock.studies.batch.probability import LEFT_OUT, probability_columns
 from seisblock.studies.batch.scalar_fields import scalar_fields
 from seisblock.studies.batch.shaking import ShakingColumns
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
 from seisblock.studies.batch.worst_azimuth import is_all_azimuths
-from seisblock.studies.capabilities import capabilities
+from seisblock.studies.solvers import solver_studies
 
 
 def solve_vectorized(solver: Solver, bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowResult]:
@@ -214,7 +214,7 @@ def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Pl
     row: Row = {"component": ALL_AZIMUTHS, "body": body.name}
     if isinstance(body, RejectedBody):
         return {**row, REASON: body.reason}
-    sweep = capabilities(plan.solver).worst_azimuth
+    sweep = solver_studies(plan.solver).worst_azimuth
     assert sweep is not None
     try:
         worst, direction_counts, remarks = sweep(body, record, plan.runs, plan.seed)
@@ -233,16 +233,15 @@ def _solve_row(shaking: ShakingColumns, body: SolverBody, plan: Plan, doubts: Se
     try:
         aligned_body = body if is_aligned or model.spatial else replace(body, body=block_for_motion(body.body, motion))
         response = model.solve(aligned_body.body, motion, **body.options.keywords())
-        probability = capabilities(plan.solver).probability
-        chance = probability(aligned_body, motion, plan.runs, plan.seed) if plan.runs and probability is not None else {}
+        chance = probability_columns(plan.solver, aligned_body, motion, plan.runs, plan.seed) if plan.runs else {}
     except SeisblockError as error:
         return {REASON: error.message}
     if response.status == Status.TOO_MANY_EVENTS:
         return {REASON: response.warnings[0]}
     warnings = [*doubts, *response.warnings, *([chance[LEFT_OUT]] if LEFT_OUT in chance else ())]
     scalars = {name: _to_plain(getattr(response.outcome, name), kind) for name, kind in scalar_fields(model.outcome).items()}
-    probability_columns = {key: value for key, value in chance.items() if key != LEFT_OUT}
-    return {**scalars, **shaking.row(aligned_body), **probability_columns, WARNINGS: "; ".join(warnings) or None}
+    chance.pop(LEFT_OUT, None)
+    return {**scalars, **shaking.row(aligned_body), **chance, WARNINGS: "; ".join(warnings) or None}
 
 
 def _to_plain(value: Any, kind: type) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 from seisblock.core.errors import ParameterError
 from seisblock.core.registry import get_solver
 from seisblock.records.motion import ALL_AZIMUTHS
-from seisblock.studies.capabilities import capabilities, directional_solvers
+from seisblock.studies.solvers import solver_studies, solvers_with
 
 
 def is_all_azimuths(components: Sequence[str]) -> bool:
@@ -29,9 +29,11 @@ def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[
         return
     if len(components) > 1:
         raise ParameterError("{name} covers all azimuths: give no other component", name=ALL_AZIMUTHS)
-    ability = capabilities(solver)
+    ability = solver_studies(solver)
     if ability.worst_azimuth is None:
-        raise ParameterError("{solver} does not support all azimuths; available: {known}", solver=solver, known=directional_solvers())
+        raise ParameterError(
+            "{solver} does not support all azimuths; available: {known}", solver=solver, known=solvers_with("worst_azimuth")
+        )
     defaults = {field.name: field.default for field in fields(get_solver(solver).options)}
     unknown = [f"`{name}`" for name in ability.single_direction_options if options.get(name, defaults[name]) != defaults[name]]
     if unknown:

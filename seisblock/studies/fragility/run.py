@@ -22,7 +22,6 @@ from seisblock.studies.azimuths import STEP_DEG, sweep_azimuths
 from seisblock.studies.batch.run import NO_PROCESSING, Bodies, named_bodies
 from seisblock.studies.batch.task import RejectedBody, build_solver_bodies
 from seisblock.studies.batch.worst_azimuth import check_all_azimuths
-from seisblock.studies.capabilities import capabilities, fragility_solvers
 from seisblock.studies.fragility.damage_states import LimitState, describe_limit, limit_states
 from seisblock.studies.fragility.estimate import CLOUD, IDA, METHODS, STRIPES, Exceedances, FitOptions, estimate_curves
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for, intensity_measure
@@ -30,6 +29,7 @@ from seisblock.studies.fragility.results import Fragility, FragilityStudy
 from seisblock.studies.fragility.runners import Draws, version_draws
 from seisblock.studies.fragility.suite import Suite, make_suite, read_suite
 from seisblock.studies.intervals import CONFIDENCE
+from seisblock.studies.solvers import solver_studies, solvers_with
 
 MAX_SCALE_FACTOR = 10.0
 """Scale factor above which a record is hardly representative."""
@@ -243,7 +243,7 @@ class StudyPlan:
         versions, solver_body = 1 if draws is None else len(draws), self.bodies[body]
         result = np.zeros((factors.size, versions, len(self.limits)), dtype=np.bool_)
         gave_up = np.zeros((factors.size, versions), dtype=np.bool_)
-        end_states = capabilities(self.solver).end_states
+        end_states = solver_studies(self.solver).end_states
         assert end_states is not None
         for aligned_body, shaking in self.suite.cases(motion, solver_body.body, spatial=get_solver(self.solver).spatial):
             ends = end_states(replace(solver_body, body=aligned_body), shaking, factors, draws)
@@ -341,9 +341,9 @@ def run_fragility(
     >>> [(curve.body, curve.limit, curve.motions) for curve in study.curves]
     [('shelf', 'overturn', 3)]
     """
-    if solver not in solver_names() or not capabilities(solver).limits:
+    if solver not in solver_names() or not solver_studies(solver).limits:
         raise ParameterError(
-            "unknown solver {name!r} for a fragility; available: {known}", name=str(solver)[:100], known=fragility_solvers()
+            "unknown solver {name!r} for a fragility; available: {known}", name=str(solver)[:100], known=solvers_with("limits")
         )
     if method not in METHODS:
         raise ParameterError("unknown method {name!r}; available: {known}", name=str(method)[:100], known=list(METHODS))
@@ -354,9 +354,9 @@ def run_fragility(
     checks.integer("the number of bootstrap samples", bootstrap, minimum=2)
     checks.integer("the number of samples of the body", perturb, minimum=0)
     check_limit(N_("bootstrap samples"), bootstrap, MAX_RUNS)
-    if perturb and not capabilities(solver).samples_in_rows:
+    if perturb and not solver_studies(solver).samples_in_rows:
         raise ParameterError("`perturb` has no effect with {solver}: omit `perturb`", solver=solver)
-    states = limit_states(limits, solver, capabilities(solver).limits)
+    states = limit_states(limits, solver, solver_studies(solver).limits)
     requested = [im] if isinstance(im, (str, IntensityMeasure)) else list(im)
     measures = tuple(dict.fromkeys(intensity_measure(item) for item in requested))
     if not measures:

@@ -25,10 +25,9 @@ from seisblock.studies.azimuth_probability import rank_by_probability
 from seisblock.studies.azimuths import STEP_DEG
 from seisblock.studies.batch.table import REASON, Row
 from seisblock.studies.batch.task import Plan, component_rows
-from seisblock.studies.capabilities import capabilities
-from seisblock.studies.respond.azimuths import RespondAzimuth, left_out_directions, respond_directions
-from seisblock.studies.rocking.azimuths import RockAzimuth, rock_directions
+from seisblock.studies.respond.azimuths import left_out_directions
 from seisblock.studies.sampling import ParameterVariation
+from seisblock.studies.solvers import SolverStudies, solver_studies
 from seisblock.studies.survey.assessment import AssessmentMethod, assess_stones
 from seisblock.studies.survey.overturning_rate import rate_from_stones
 from seisblock.studies.survey.shaking import Shaking
@@ -52,7 +51,7 @@ class StationResult:
     rate : float or None
         Share of the stones that fall.
     happened : bool or None
-        Whether the event of the solver occurred: overturning (``respond``, ``rock``), sliding, jump, uplift.
+        Whether the event of the solver occurred: overturning, sliding, jump, uplift.
     overturned : bool or None
         None for solvers without overturning.
     probability : float or None
@@ -116,11 +115,11 @@ class StationBody(DisplayMixin):
     options : SolverOptions
         Of the solver.
     runs, seed : int
-        Number of samples of the probability (``respond``, ``rock``), 0 for none, and their seed.
+        Number of samples of the probability, 0 for none, and their seed.
     step_deg : float
-        Azimuth step of ``respond``, and of ``rock`` with samples, degrees; other solvers use their own.
+        Azimuth step of a solver that sweeps all azimuths in one batch, degrees; others use their own.
     solver : str
-        ``respond``, ``rock``, ``slide``, ``jump`` or ``uplift``.
+        One of :func:`station_solvers`.
     label : str
         Name of a body without a name.
 
@@ -151,7 +150,7 @@ class StationBody(DisplayMixin):
             raise ParameterError(
                 "{solver!r} is not available for stations; use {known}", solver=str(self.solver)[:100], known=station_solvers()
             )
-        if self.runs and capabilities(self.solver).probability is None:
+        if self.runs and not self._studies.samples_in_rows:
             raise ParameterError("{solver} does not support samples: omit `runs`, or use respond or rock", solver=self.solver)
 
     @property
@@ -162,13 +161,16 @@ class StationBody(DisplayMixin):
     @property
     def citations(self) -> tuple[str, ...]:
         """Keys of the cited papers."""
-        topics = get_solver(self.solver).topics
-        return papers(*(topics[:1] if self.solver == "respond" else topics))
+        return papers(*get_solver(self.solver).topics[:1])
+
+    @property
+    def _studies(self) -> SolverStudies:
+        return solver_studies(self.solver)
 
     @property
     def is_directional(self) -> bool:
         """True if the solver covers all azimuths."""
-        return capabilities(self.solver).worst_azimuth is not None
+        return self._studies.worst_azimuth is not None
 
     @property
     def event(self) -> str:
@@ -182,7 +184,7 @@ class StationBody(DisplayMixin):
         filled = {
             "happened": solver.event != solver.overturned or solver.event_values != solver.overturned_values,
             "overturned": solver.overturned is not None,
-            "probability": capabilities(self.solver).probability is not None,
+            "probability": self._studies.samples_in_rows,
             "max_slip_m": solver.displacement is not None and solver.displacement != RISE,
             "max_uplift_m": solver.displacement == RISE,
         }
@@ -202,7 +204,7 @@ class StationBody(DisplayMixin):
 
     def evaluate(self, record: Record) -> StationResult:
         """Return the response to a record in the worst direction."""
-        if self.solver == "respond" or (self.solver == "rock" and self.runs):
+        if self._studies.directions is not None:
             return self._swept_result(record)
         components = (ALL_AZIMUTHS,) if self.is_directional else ()
         plan = Plan(self.solver, (SolverBody(self.name, self.body, self.options),), components)
@@ -214,18 +216,15 @@ class StationBody(DisplayMixin):
         return self._with_assessment(worst, record) if self.runs else worst
 
     def _swept_result(self, record: Record) -> StationResult:
-        """Return the result of `respond` or `rock` in the worst direction, with the probability of the object."""
-        results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]
-        if self.solver == "respond":
-            results = respond_directions(self.body, record, self.options, step_deg=self.step_deg)
-        else:
-            results = rock_directions(self.body, record, step_deg=self.step_deg, options=self.options)
+        """Return the result of a sweep in the worst direction, with the probability of the object."""
+        assert self._studies.directions is not None
+        results = self._studies.directions(self.body, record, self.options, step_deg=self.step_deg)
         worst, remarks = self._worst_direction(results, record), left_out_directions(results)
         result = StationResult(
             worst.azimuth_deg if worst.moves else None,
             happened=worst.overturned,
             overturned=worst.overturned,
-            max_slip_m=worst.max_displacement_m if isinstance(worst, RespondAzimuth) else None,
+            max_slip_m=getattr(worst, "max_displacement_m", None),
             remarks=tuple(remarks),
         )
         return self._with_assessment(result, record) if self.runs else result

@@ -1,0 +1,81 @@
+"""Studies of each solver beyond single runs: samples, assessment, azimuth sweeps and end states of many runs.
+
+The studies of a solver stand in the module of its name. One without a module is solved run by run, with the limit states of its outcome.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seisblock.core.registry import SolverBody, get_solver, solver_names
+from seisblock.records import Record
+
+if TYPE_CHECKING:
+    from seisblock.studies.assessment import DirectionAssessment
+    from seisblock.studies.batch.directions import Worst
+    from seisblock.studies.fragility.runners import Runner
+    from seisblock.studies.sampling import Samples, Sampling
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolverStudies:
+    """Studies that a solver supports.
+
+    Parameters
+    ----------
+    sample : callable or None
+        ``sample(sampling)``: results of the samples of one object in one direction.
+    assess : callable or None
+        ``assess(body, motion, options, samples, *, moved_m)``: assessment in one direction from these samples.
+    end_states : callable or None
+        End states of many runs of one body; None without limit states.
+    limits : tuple of str
+        Limit states of a fragility.
+    samples_in_rows : bool
+        Whether samples are solved in rows: many of them in a batch, on a map and in `end_states`.
+    directions : callable or None
+        ``directions(body, record, options, *, step_deg)``: results in all azimuths of a record, the worst first.
+    worst_azimuth : callable or None
+        ``worst_azimuth(solver_body, record, runs, seed)``: worst direction of a body under a record.
+    single_direction_options : tuple of str
+        Options that an azimuth sweep does not support.
+    """
+
+    sample: Callable[[Sampling], Samples] | None = None
+    assess: Callable[..., DirectionAssessment] | None = None
+    end_states: Runner | None = None
+    limits: tuple[str, ...] = ()
+    samples_in_rows: bool = False
+    directions: Callable[..., Sequence[Any]] | None = None
+    worst_azimuth: Callable[[SolverBody, Record, int, int], Worst] | None = None
+    single_direction_options: tuple[str, ...] = ()
+
+
+@cache
+def solver_studies(name: str) -> SolverStudies:
+    """Return the studies that a solver supports.
+
+    Raises
+    ------
+    ParameterError
+        If there is no solver of that name.
+    """
+    solver = get_solver(name)
+    studies = SolverStudies()
+    if Path(__file__).with_name(f"{name}.py").exists():
+        studies = importlib.import_module(f"seisblock.studies.solvers.{name}").STUDIES
+    if studies.end_states is None and solver.damage_states:
+        from seisblock.studies.fragility.runners import single_end_states
+
+        return replace(studies, end_states=partial(single_end_states, solver=solver), limits=tuple(solver.damage_states))
+    return studies
+
+
+def solvers_with(study: str) -> list[str]:
+    """Return the names of the solvers that support a study: a field of :class:`SolverStudies`."""
+    return [name for name in solver_names() if getattr(solver_studies(name), study)]
