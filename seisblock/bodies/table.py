@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.edge_wear import parse_edge_wear
-from seisblock.bodies.kinds import normalize_kind
-from seisblock.bodies.toml import read_body_toml
+from seisblock.bodies.kinds import KINDS, normalize_kind
+from seisblock.bodies.toml import bundled_bodies, read_body_toml
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
-from seisblock.core.errors import BodyError
+from seisblock.core.errors import BodyError, SeisblockError
 from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.io.csv_table import (
     FALSE_WORDS,
@@ -46,6 +46,9 @@ NUMBER_COLUMNS = (
     "beta",
     "damping",
 )
+MAX_UNKNOWN_KINDS = 5
+"""Largest number of unknown words of the column ``kind`` in a note."""
+
 TEXT_COLUMNS = ("name", "body", "surface", "side", "kind")
 SURVEY_COLUMNS = ("height_over_width", "reinforced", "fallen", "azimuth_deg", "count")
 """Columns of a survey of gravestones: a table with one of them lists stones."""
@@ -346,7 +349,7 @@ def _body_specs(row: TableRow, source: str, *, stones: bool) -> list[BodySpec]:
     values = dict(row.values)
     place = lazy_gettext("{name}, line {line}", name=source, line=row.line)
     if row.error is not None:
-        return [BodySpec(row.name, source=place, error=lazy_gettext("line {line}: {why}", line=row.line, why=row.error))]
+        return [BodySpec(row.name, source=place, error=lazy_gettext("{source}: {why}", source=place, why=row.error))]
     if stones:
         if values.pop("reinforced", False):
             raise BodyError(
@@ -480,3 +483,44 @@ def _parse_bool(key: str, cell: str) -> bool | None:
     if word not in true_words | false_words:
         raise BodyError("{key} must be {expected}, found {text!r}", key=key, expected=lazy_gettext(expected), text=cell)
     return word in true_words
+
+
+def resolve_kinds(specs: Sequence[BodySpec]) -> tuple[list[BodySpec], list[Message]]:
+    """Return bodies with the values of their kinds, and notes on words of the column ``kind`` without effect.
+
+    A bundled name stands for that body; beside sizes it gives the friction of the kind, and an unknown word has no effect.
+    """
+    pairs = [_resolve_kind(spec) for spec in specs]
+    unknown = sorted({kind for _, kind in pairs if kind is not None})
+    words = [repr(kind[:40]) for kind in unknown[:MAX_UNKNOWN_KINDS]]
+    notes = [lazy_gettext("kinds without effect: {unknown}; known: {known}", unknown=words, known=_known_kinds())] if unknown else []
+    return [spec for spec, _ in pairs], notes
+
+
+def _resolve_kind(spec: BodySpec) -> tuple[BodySpec, str | None]:
+    """Return a body with the values of its kind, and the kind if it is unknown and has no effect."""
+    values = dict(spec.parameters)
+    kind = values.get("kind")
+    if not isinstance(kind, str) or spec.description is not None:
+        return spec, None
+    has_sizes = "width" in values or "height" in values
+    # without sizes `statue` is the bundled body, beside them the kind of the object
+    if kind in KINDS and (has_sizes or kind not in bundled_bodies()):
+        return spec, None
+    del values["kind"]
+    try:
+        table = read_body_toml(kind)
+    except SeisblockError:
+        if has_sizes:
+            return replace(spec, parameters=values), kind
+        text = lazy_gettext("unknown kind of body {kind!r}; known: {known}", kind=kind[:100], known=_known_kinds())
+        return replace(spec, error=lazy_gettext("{source}: {why}", source=spec.source, why=text)), None
+    if not has_sizes:
+        return BodySpec(spec.name, values, table, spec.source), None
+    if "mu" not in values and "surface" not in values and table.get("mu") is not None:
+        values["mu"] = float(table["mu"])
+    return BodySpec(spec.name, values, None, spec.source), None
+
+
+def _known_kinds() -> list[str]:
+    return list(dict.fromkeys((*KINDS, *bundled_bodies())))

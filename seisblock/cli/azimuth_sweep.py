@@ -74,19 +74,11 @@ def assessed_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping
 
             assessments = [extra.get("assessment") for extra in extras]
             probabilities = [None if item is None else item.assessment.overturning_probability for item in assessments]
-            return response_figure(responses, gal=gal, probabilities=probabilities, **_falls(responses, extras))
+            samples = [extra.get("probability") for extra in extras]
+            falls = {"falls": samples} if any(hasattr(item, "fell_azimuths_deg") for item in samples) else {}
+            return response_figure(responses, gal=gal, probabilities=probabilities, **falls)
         from seisblock.report.figures.azimuths import figure
 
         return figure(responses, [extra["directions"] for extra in extras], gal=gal)
 
     return draw
-
-
-def _falls(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Return the directions of fall of samples in three dimensions, for the figure; empty for other models."""
-    if responses[0].model != "rigid3d":
-        return {}
-    from seisblock.models.rigid3d.plot import Falls
-
-    samples = [extra.get("probability") for extra in extras]
-    return {"falls": [None if item is None else Falls(item.runs, item.fell_azimuths_deg) for item in samples]}

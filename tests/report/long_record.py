@@ -6,6 +6,7 @@ import pkgutil
 from dataclasses import replace
 from datetime import UTC, datetime
 from importlib import import_module
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -144,6 +145,7 @@ def every_azimuth(model):
     return respond_directions(Block(0.45, 1.8), scale(record(), 0.7), options=RespondOptions(mu=0.3), step_deg=15.0)
 
 
+FALLS = SimpleNamespace(runs=50, fell_azimuths_deg=(3.0, 5.0, 20.0, 181.0))
 AOYAMA = read_cemetery("aoyama.csv")
 VALUES = ("NS", "EW")
 
@@ -330,7 +332,7 @@ OF_THE_RECORD = dict(model_figures()) | {
     "rigid3d, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("rigid3d")], [every_azimuth("rigid3d")])),
     "rigid3d, falls": (
         rigid3d_plot.figure,
-        lambda gal: rigid3d_plot.figure([response("rigid3d")], gal=gal, falls=[rigid3d_plot.Falls(50, (3.0, 5.0, 20.0, 181.0))]),
+        lambda gal: rigid3d_plot.figure([response("rigid3d")], gal=gal, falls=[FALLS]),
     ),
     "respond, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("respond")], [every_azimuth("respond")])),
     "a record": (input_panels.record_figure, lambda _: input_panels.record_figure(record())),

@@ -234,7 +234,7 @@ def test_read_body_list_keeps_invalid_rows_with_their_reason_and_ignores_other_c
     reasons = {body.name: str(body.reason) for body in bodies if not isinstance(body, SolverBody)}
     assert [body.name for body in bodies] == ["vase", "wide", "3", "odd", "vase (2)", "low"]
     assert reasons.keys() == {"wide", "low"}
-    assert reasons["wide"].startswith("line 3: width 'abc' is not a number")
+    assert "list.csv, line 3: width 'abc' is not a number" in reasons["wide"]
     assert "line 7: height missing" in reasons["low"]
     # other commands refuse such a table
     path.write_text("name,width (cm),height (cm),place\nvase,15,40,hall\n", encoding="utf-8")

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.results import Response
@@ -24,15 +23,12 @@ QUANTITIES = tuple(map(N_, ("θ (deg)", "rise of G ({unit})", "x of G ({unit})")
 COLOURS: dict[str, str] = {JumpPhase.ROCKING: "#f4d9c6", JumpPhase.FLIGHT: "#8fb89b", JumpPhase.LANDED: "#7183bb"}
 
 
-def figure(responses: JumpResponses, *, gal: bool = True) -> Figure:
-    """Return the figure: per component record with thresholds (fig. 12), and tilt, rise, displacement with motion (fig. 14)."""
-    fig = _build_figure(responses, gal=gal)
-    fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
-    return fig
+@style.narrow_too
+def figure(responses: JumpResponses, *, gal: bool = True, narrow: bool = False) -> style.StyledFigure:
+    """Return the figure: per component record with thresholds (fig. 12), and tilt, rise, displacement with motion (fig. 14).
 
-
-def _build_figure(responses: JumpResponses, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, columns side by side, or stacked if `narrow`."""
+    Columns side by side, or stacked if `narrow`.
+    """
     motions = [response.motion for response in responses]
     rows = [4 if response.outcome.chains else 1 for response in responses]
     wide, high = (8.0, 1.0 + 1.8 * sum(rows)) if narrow else (4.0 + 4.0 * len(responses), 1.0 + 1.8 * max(rows))

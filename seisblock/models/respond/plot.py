@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import gettext
@@ -35,8 +34,13 @@ GROUND, DISPLACEMENT, TILT, LIFT = range(4)
 """Kinds of panels from top to bottom."""
 
 
-def figure(responses: Responses, *, gal: bool = True, probabilities: Sequence[float | None] = ()) -> Figure:
+@style.narrow_too
+def figure(
+    responses: Responses, *, gal: bool = True, probabilities: Sequence[float | None] = (), narrow: bool = False
+) -> style.StyledFigure:
     """Return the figure: per component a column of ground acceleration and, if any, displacement, tilt and uplift.
+
+    Columns side by side, or stacked if `narrow`.
 
     Parameters
     ----------
@@ -45,13 +49,6 @@ def figure(responses: Responses, *, gal: bool = True, probabilities: Sequence[fl
     probabilities : sequence of float or None
         Overturning probability of each response, where known.
     """
-    fig = _build_figure(responses, probabilities, gal=gal)
-    fig.narrow_layout = lambda: _build_figure(responses, probabilities, gal=gal, narrow=True)
-    return fig
-
-
-def _build_figure(responses: Responses, probabilities: Sequence[float | None], *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, columns side by side, or stacked if `narrow`."""
     panel_groups = [panel_kinds(response) for response in responses]
     rows = [len(kinds) for kinds in panel_groups]
     motions, stretches = [response.motion for response in responses], [motion_interval(response) for response in responses]

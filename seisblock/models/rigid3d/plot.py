@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -33,12 +33,11 @@ HISTORY_HEIGHT, ROSE_HEIGHT = 9.0, 3.4
 """Heights of the time histories and of a row of roses, in."""
 
 
-@dataclass(frozen=True)
-class Falls:
+class Falls(Protocol):
     """Samples of a body: number of runs, and the azimuth of each fall, degrees clockwise from north, or from +x where that is unknown."""
 
     runs: int
-    azimuths_deg: Sequence[float]
+    fell_azimuths_deg: Sequence[float]
 
 
 def figure(
@@ -60,17 +59,17 @@ def figure(
         Samples of each response, where known; those that fall are drawn as a rose below.
     """
     motions = [response.motion for response in responses]
-    has_falls = any(item is not None and item.azimuths_deg for item in falls)
+    has_falls = any(item is not None and item.fell_azimuths_deg for item in falls)
     height = HISTORY_HEIGHT + ROSE_HEIGHT * has_falls
     fig = style.titled_figure(motions_heading(motions), width=3.0 + 5.0 * len(responses), height=height)
     histories: Figure | SubFigure = fig
     if has_falls:
         histories, roses = fig.subfigures(2, 1, squeeze=False, height_ratios=(HISTORY_HEIGHT, ROSE_HEIGHT))[:, 0]
         for place, (response, item) in enumerate(zip(responses, falls, strict=True), start=1):
-            if item is not None and item.azimuths_deg:
+            if item is not None and item.fell_azimuths_deg:
                 panel = roses.add_subplot(1, len(responses), place, projection="polar")
                 origin = "+x" if response.motion.azimuth_deg is None else ""
-                draw_fall_rose(panel, item.azimuths_deg, item.runs, origin=origin)
+                draw_fall_rose(panel, item.fell_azimuths_deg, item.runs, origin=origin)
     spans = [motion_interval(response) for response in responses]
     disp_unit = length_unit((response.outcome.max_displacement_m for response in responses), gal=gal)
     columns = history_columns(histories, motions, spans, 4, heights=(1.3, 1.0, 1.0, 1.0))

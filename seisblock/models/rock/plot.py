@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from seisblock.core.i18n import gettext
@@ -34,8 +33,13 @@ COLOURS: dict[str, str] = {
 }  # fmt: skip
 
 
-def figure(responses: RockResponses, *, gal: bool = True, probabilities: Sequence[float | None] = ()) -> Figure:
+@style.narrow_too
+def figure(
+    responses: RockResponses, *, gal: bool = True, probabilities: Sequence[float | None] = (), narrow: bool = False
+) -> style.StyledFigure:
     """Return the figure: per component acceleration with threshold band, tilt over alpha with impacts and phases, phase plane.
+
+    Phase planes beside the time histories, or below if `narrow`.
 
     Parameters
     ----------
@@ -44,15 +48,6 @@ def figure(responses: RockResponses, *, gal: bool = True, probabilities: Sequenc
     probabilities : sequence of float or None
         Overturning probability of each response, where known.
     """
-    fig = _build_figure(responses, probabilities, gal=gal)
-    fig.narrow_layout = lambda: _build_figure(responses, probabilities, gal=gal, narrow=True)
-    return fig
-
-
-def _build_figure(
-    responses: RockResponses, probabilities: Sequence[float | None], *, gal: bool, narrow: bool = False
-) -> style.StyledFigure:
-    """Return the figure, phase planes beside the time histories, or below if `narrow`."""
     tall = 6.4 if narrow else 3.6
     heights = [tall if is_visible(response) else 2.0 for response in responses]
     motions = [response.motion for response in responses]

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from seisblock.core.i18n import gettext
 from seisblock.core.results import Response
@@ -23,15 +22,12 @@ COLOURS: dict[str, str] = {SlidePhase.FORWARD: "#f6dfcf", SlidePhase.BACKWARD: "
 """Colours of the phases, light enough for curves on top, distinct in greyscale."""
 
 
-def figure(responses: SlideResponses, *, gal: bool = True) -> Figure:
-    """Return the figure: per direction acceleration with sliding thresholds and, with sliding, velocities and displacement."""
-    fig = _build_figure(responses, gal=gal)
-    fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
-    return fig
+@style.narrow_too
+def figure(responses: SlideResponses, *, gal: bool = True, narrow: bool = False) -> style.StyledFigure:
+    """Return the figure: per direction acceleration with sliding thresholds and, with sliding, velocities and displacement.
 
-
-def _build_figure(responses: SlideResponses, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, columns side by side, or stacked if `narrow`."""
+    Columns side by side, or stacked if `narrow`.
+    """
     motions = [response.motion for response in responses]
     rows = [3 if response.outcome.slips else 1 for response in responses]
     wide, high = (8.5, 1.0 + 2.0 * sum(rows)) if narrow else (4.5 + 4.0 * len(responses), 1.0 + 2.0 * max(rows))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.figure import SubFigure
 from matplotlib.patches import Rectangle
 
 from seisblock.bodies.spring_block import CORNER_SIGNS
@@ -31,15 +31,12 @@ IN_AIR = N_("uplift")
 SUBSCRIPTS = "₁₂₃₄"
 
 
-def figure(responses: Uplifts, *, gal: bool = True) -> Figure:
-    """Return the figure: ground motion, four corner displacements with uplift shaded, plan with the times of uplift."""
-    fig = _build_figure(responses, gal=gal)
-    fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
-    return fig
+@style.narrow_too
+def figure(responses: Uplifts, *, gal: bool = True, narrow: bool = False) -> style.StyledFigure:
+    """Return the figure: ground motion, four corner displacements with uplift shaded, plan with the times of uplift.
 
-
-def _build_figure(responses: Uplifts, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, columns side by side, or stacked if `narrow`, each above its plan."""
+    Columns side by side, or stacked if `narrow`, each above its plan.
+    """
     motions = [response.motion for response in responses]
     columns, rows = (1, len(responses)) if narrow else (len(responses), 1)
     fig = style.titled_figure(motions_heading(motions), width=3.0 + 5.0 * columns, height=11.6 * rows)

@@ -126,15 +126,12 @@ def _display(channel: Channel, length: Unit) -> tuple[float, str, str]:
     return 1.0, f"{symbol} ({channel.unit})", f" {channel.unit}"
 
 
-def figure(responses: Sequence[Response[Any]], *, gal: bool = True) -> Figure:
-    """Return the figure of the channels of each direction, SI, in the order of the solver."""
-    fig = _build_figure(responses)
-    fig.narrow_layout = lambda: _build_figure(responses, narrow=True)
-    return fig
+@style.narrow_too
+def figure(responses: Sequence[Response[Any]], *, gal: bool = True, narrow: bool = False) -> style.StyledFigure:
+    """Return the figure of the channels of each direction, SI, in the order of the solver.
 
-
-def _build_figure(responses: Sequence[Response[Any]], *, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, columns side by side, or stacked if `narrow`."""
+    Columns side by side, or stacked if `narrow`.
+    """
     motions = [response.motion for response in responses]
     rows = min(len(responses[0].channels), MAX_PANELS) or 1
     wide, high = (8.5, 1.0 + 1.6 * rows * len(responses)) if narrow else (4.5 + 4.0 * len(responses), 1.0 + 1.6 * rows)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial, wraps
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, ParamSpec
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -22,6 +23,8 @@ from seisblock.output.figures.fonts import use_fonts
 from seisblock.output.figures.spans import span_patch
 from seisblock.output.io.atomic import atomic_write, check_figure
 from seisblock.output.text.wrap import display_width
+
+P = ParamSpec("P")
 
 INPUT = "0.45"
 ACCENT = "#c0392b"
@@ -166,6 +169,19 @@ class StyledFigure(Figure):
                 title.set_text(split_in_two(title.get_text(), SEPARATOR))
             while title.get_window_extent(renderer).width > available and len(title.get_text()) > 2:
                 title.set_text(title.get_text()[:-2] + "…")
+
+
+def narrow_too(build: Callable[P, StyledFigure]) -> Callable[P, StyledFigure]:
+    """Return a function of figures that keep its keyword ``narrow=True`` as their layout of a column."""
+
+    @wraps(build)
+    def make(*args: P.args, **keywords: P.kwargs) -> StyledFigure:
+        fig = build(*args, **keywords)
+        narrow: Any = {**keywords, "narrow": True}
+        fig.narrow_layout = partial(build, *args, **narrow)
+        return fig
+
+    return make
 
 
 def split_in_two(text: str, separator: str = " ") -> str:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from seisblock.core.i18n import gettext
@@ -24,8 +23,13 @@ RIM = 1.0
 """Tilt over alpha at the rim of a polar panel, drawn for overturned blocks."""
 
 
-def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions], *, gal: bool = True) -> Figure:
+@style.narrow_too
+def figure(
+    responses: Sequence[Response[Any]], directions: Sequence[Directions], *, gal: bool = True, narrow: bool = False
+) -> style.StyledFigure:
     """Return the figure: per record a polar panel of peak tilt over alpha and, with sliding, one of maximum displacement.
+
+    Panels of a record side by side, or stacked if `narrow`.
 
     In three dimensions a rose of the directions of fall, over the azimuths of the body's +x, stands beside them.
 
@@ -39,15 +43,6 @@ def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions],
         Displacements in cm, else m.
     """
     slides = any(hasattr(result, "max_displacement_m") for group in directions for result in group)
-    fig = _build_figure(responses, directions, slides=slides, narrow=False, gal=gal)
-    fig.narrow_layout = lambda: _build_figure(responses, directions, slides=slides, narrow=True, gal=gal)
-    return fig
-
-
-def _build_figure(
-    responses: Sequence[Response[Any]], directions: Sequence[Directions], *, slides: bool, narrow: bool, gal: bool
-) -> style.StyledFigure:
-    """Return the figure, panels of a record side by side, or stacked if `narrow`."""
     falls = [[azimuth for result in group if (azimuth := getattr(result, "fell_azimuth_deg", None)) is not None] for group in directions]
     across, down = 1 + slides + any(falls), len(responses)
     rows, columns = (across * down, 1) if narrow else (down, across)

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from seisblock.bodies.scan.azimuths import scan_azimuths
 from seisblock.bodies.scan.body import ScannedBody
@@ -23,15 +22,12 @@ OUTLINE, BASE, CONTACT_AREA = "0.94", "#9cc3dc", "#2f5f8c"
 """Colours of outline, base polygon and support polygon, distinct in greyscale."""
 
 
-def figure(scan: Scan) -> Figure:
-    """Return the figure of a scan: plan with north up, and alpha and p over azimuth."""
-    fig = _build_figure(scan, narrow=False)
-    fig.narrow_layout = lambda: _build_figure(scan, narrow=True)
-    return fig
+@style.narrow_too
+def figure(scan: Scan, *, narrow: bool = False) -> style.StyledFigure:
+    """Return the figure of a scan: plan with north up, and alpha and p over azimuth.
 
-
-def _build_figure(scan: Scan, *, narrow: bool) -> style.StyledFigure:
-    """Return the figure, panels side by side, or stacked if `narrow`."""
+    Panels side by side, or stacked if `narrow`.
+    """
     body = scan.body
     title = gettext("{name}: {mass:.4g} kg, height {height:.3g} m", name=body.name, mass=body.mass, height=body.height)
     fig = style.titled_figure(title, width=4.6 if narrow else 11.6, height=12.0 if narrow else 4.6)

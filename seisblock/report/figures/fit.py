@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from seisblock.core.i18n import N_, format_percent, gettext
 from seisblock.output.figures import style
@@ -34,8 +33,11 @@ _EVENT = {FELL: N_("overturned"), MOVED: N_("moved")}
 _NO_EVENT = {FELL: N_("did not overturn"), MOVED: N_("did not move")}
 
 
-def fit_figure(fit: BlockFit, name: str, *, gal: bool = True) -> Figure:
+@style.narrow_too
+def fit_figure(fit: BlockFit, name: str, *, gal: bool = True, narrow: bool = False) -> style.StyledFigure:
     """Return the figure: a panel per parameter, cross-validated calibration, and outcomes over PGA and PGV/PGA.
+
+    Panels stacked if `narrow`.
 
     Parameters
     ----------
@@ -45,13 +47,6 @@ def fit_figure(fit: BlockFit, name: str, *, gal: bool = True) -> Figure:
     gal : bool
         Unit of accelerations, else m/s^2.
     """
-    fig = _build_figure(fit, name, gal=gal)
-    fig.narrow_layout = lambda: _build_figure(fit, name, gal=gal, narrow=True)
-    return fig
-
-
-def _build_figure(fit: BlockFit, name: str, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, panels stacked if `narrow`."""
     experiment = fit.experiment
     counts = {"happened": int(experiment.happened.sum()), "outcomes": len(experiment.outcomes), "records": experiment.records}
     title = gettext(_TITLE[experiment.kind], table=name, **counts)

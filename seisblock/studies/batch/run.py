@@ -9,7 +9,7 @@ from itertools import groupby
 from os import PathLike
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from seisblock.bodies.table import BodySpec, read_bodies
+from seisblock.bodies.table import BodySpec, read_bodies, resolve_kinds
 from seisblock.core import checks
 from seisblock.core.errors import KindError, ParameterError
 from seisblock.core.i18n import lazy_gettext
@@ -209,6 +209,8 @@ def named_bodies(bodies: Bodies, model: Solver) -> list[BodySpec | SolverBody]:
 
 
 def ignored_column_notes(model: Solver, bodies: Sequence[BodySpec | SolverBody]) -> tuple[str, ...]:
-    """Return warnings on columns of the list of bodies that the solver does not use."""
-    ignored = dict.fromkeys(key for body in bodies if isinstance(body, BodySpec) for key in model.ignored_columns(body.parameters))
-    return (lazy_gettext("{solver} does not use {columns}", columns=list(ignored), solver=model.name),) if ignored else ()
+    """Return warnings on columns and kinds of the list of bodies that the solver does not use."""
+    specs = [body for body in bodies if isinstance(body, BodySpec)]
+    ignored = dict.fromkeys(key for spec in specs for key in model.ignored_columns(spec.parameters))
+    notes = [lazy_gettext("{solver} does not use {columns}", columns=list(ignored), solver=model.name)] if ignored else []
+    return (*notes, *(resolve_kinds(specs)[1] if "kind" in model.columns else ()))

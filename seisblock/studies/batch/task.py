@@ -9,7 +9,7 @@ from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.factory import block_for_motion
-from seisblock.bodies.table import BodySpec
+from seisblock.bodies.table import BodySpec, resolve_kinds
 from seisblock.core._display import exact_repr
 from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
@@ -104,7 +104,8 @@ def build_solver_bodies(
         If it can take none of them, or two share a name.
     """
     result: list[SolverBody | RejectedBody] = []
-    for body in bodies:
+    for item in bodies:
+        body = resolve_kinds([item])[0][0] if isinstance(item, BodySpec) and "kind" in solver.columns else item
         if isinstance(body, BodySpec) and body.error is not None:
             result.append(RejectedBody(body.name, body.error))
             continue

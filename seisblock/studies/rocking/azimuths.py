@@ -64,10 +64,10 @@ class RockAzimuth(DisplayMixin):
 def rock_directions(
     body: Block | ScannedBody,
     record: Record,
+    options: RockOptions = RockOptions(),
     *,
     step_deg: float = STEP_DEG,
     progress: Progress | None = None,
-    options: RockOptions = RockOptions(),
 ) -> list[RockAzimuth]:
     """Return the rocking of a block, or of a scan, in every direction of a record, the worst direction first.
 
@@ -79,11 +79,11 @@ def rock_directions(
     body : Block or ScannedBody
     record : Record
         With two horizontal components of known azimuths.
+    options : RockOptions
     step_deg : float
         Step between directions, degrees.
     progress : callable
         Called with the number of finished runs and the total.
-    options : RockOptions
 
     Returns
     -------

@@ -11,13 +11,11 @@ import numpy as np
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.factory import block_for_motion, table_friction
-from seisblock.bodies.kinds import KINDS
-from seisblock.bodies.table import BodySpec
-from seisblock.bodies.toml import bundled_bodies, read_body_toml
+from seisblock.bodies.table import BodySpec, resolve_kinds
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
-from seisblock.core.errors import ParameterError, SeisblockError
+from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.registry import SolverBody, get_solver
 from seisblock.core.typing import IntArray, Progress
@@ -43,9 +41,6 @@ SHIFT_QUANTILE = 0.95
 
 UNKNOWN_FRICTION, UNKNOWN_FRICTION_RANGE = 0.4, (0.2, 0.7)
 """Friction of an object for which none is given, and its range: those of the bundled bookcase."""
-
-MAX_UNKNOWN_KINDS = 5
-"""Largest number of unknown words of the column ``kind`` in a note."""
 
 MAX_GAP_M = 0.3
 """Displacement above which a free gap is no advice."""
@@ -108,12 +103,8 @@ def scenario_bodies(
     given_options = {key: value for key, value in (options or {}).items() if value is not None}
     if "mu" in given_options:
         checks.non_negative("the friction coefficient mu", given_options["mu"])
-    with_kind = [_with_kind(spec) for spec in specs]
-    specs = _with_distinct_names([spec for spec, _ in with_kind])
-    notes: list[Message] = []
-    if unknown := sorted({kind for _, kind in with_kind if kind is not None}):
-        words = [repr(kind[:40]) for kind in unknown[:MAX_UNKNOWN_KINDS]]
-        notes.append(lazy_gettext("kinds without effect: {unknown}; known: {known}", unknown=words, known=_known_kinds()))
+    specs, notes = resolve_kinds(specs)
+    specs = _with_distinct_names(specs)
     bodies = build_solver_bodies(get_solver("respond"), specs, {"mu": UNKNOWN_FRICTION, **given_options})
     if "mu" in given_options:
         if not any(map(is_friction_unknown, specs)):
@@ -164,35 +155,6 @@ def _with_distinct_names(specs: Sequence[BodySpec]) -> list[BodySpec]:
         names.add(name)
         result.append(replace(spec, name=name))
     return result
-
-
-def _with_kind(spec: BodySpec) -> tuple[BodySpec, str | None]:
-    """Return a body with the values of its kind, and the kind if it is unknown and has no effect."""
-    values = dict(spec.parameters)
-    kind = values.get("kind")
-    if not isinstance(kind, str) or spec.description is not None:
-        return spec, None
-    has_sizes = "width" in values or "height" in values
-    # without sizes `statue` is the bundled body, beside them the kind of the object
-    if kind in KINDS and (has_sizes or kind not in bundled_bodies()):
-        return spec, None
-    del values["kind"]
-    try:
-        table = read_body_toml(kind)
-    except SeisblockError:
-        if has_sizes:
-            return replace(spec, parameters=values), kind
-        text = lazy_gettext("unknown kind of body {kind!r}; known: {known}", kind=kind[:100], known=_known_kinds())
-        return replace(spec, error=lazy_gettext("{source}: {why}", source=spec.source, why=text)), None
-    if not has_sizes:
-        return BodySpec(spec.name, values, table, spec.source), None
-    if "mu" not in values and "surface" not in values and table.get("mu") is not None:
-        values["mu"] = float(table["mu"])
-    return BodySpec(spec.name, values, None, spec.source), None
-
-
-def _known_kinds() -> list[str]:
-    return list(dict.fromkeys((*KINDS, *bundled_bodies())))
 
 
 def assess_scenario(

@@ -151,6 +151,15 @@ def test_batch_unsuitable_body_fails_its_rows_only(folder):
         seisblock.run_batch("records/r0.csv", [body for body in seisblock.bodies.read_bodies("b.csv") if body.name == "b"], "respond")
 
 
+def test_batch_takes_a_bundled_kind_beside_sizes(folder):
+    """The kind gives the friction, and an unknown one has no effect."""
+    (folder / "b.csv").write_text("name,kind,width,height,mu\na,bookcase,0.2,1,\nb,piano,0.2,1,0.5\n")
+    batch = seisblock.run_batch("records/r0.csv", "b.csv", "respond", components="NS")
+    shelf, piano = batch.rows
+    assert shelf["mu"] == 0.4 and piano["mu"] == 0.5
+    assert "kinds without effect: 'piano'" in str(batch.notes[0])
+
+
 def test_batch_processes_records_and_rotates_components(folder):
     """A batch processes records and computes directions that are no components."""
     preparation = seisblock.records.Preparation(scale=1.5, window=(2.0, 9.0))
