@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source
+from seisblock.cli.progress import progress
 from seisblock.core.i18n import N_
 from seisblock.records.motion import ALL_AZIMUTHS
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from seisblock.cli.bodies.block import BodyChoice
     from seisblock.core.results import Response
     from seisblock.records import Motion, Record
+    from seisblock.studies.sampling import ParameterVariation
 
 
 def is_azimuth_sweep(source: Source) -> bool:
@@ -50,6 +52,26 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
             text = N_("no motion in any of {count} azimuths; largest PGA at {azimuth:g} degrees")
         info(text, count=len(results), azimuth=results[0].azimuth_deg)
         yield motion_of(record, azimuth_name(record, results[0].azimuth_deg)), results
+
+
+def ranked_sweep(
+    solver: str, body: Any, options: Any, runs: int, variation: ParameterVariation, seed: int, known: Sequence[str] = ()
+) -> Callable[[Record], Sequence[Any]]:
+    """Return a function that solves all azimuths of a record, with samples in each if there are any."""
+
+    def solve(record: Record) -> Sequence[Any]:
+        from seisblock.studies.azimuth_probability import rank_by_probability
+        from seisblock.studies.solvers import solver_studies
+
+        directions = solver_studies(solver).directions
+        assert directions is not None
+        results = directions(body, record, options)
+        if not runs or not any(result.moves for result in results):
+            return results
+        with progress("azimuths") as advance:
+            return rank_by_probability(solver, body, record, results, options, runs, variation, seed=seed, known=known, progress=advance)
+
+    return solve
 
 
 def _peak(record: Record, azimuth: float) -> float:

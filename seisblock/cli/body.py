@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -19,7 +18,7 @@ from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import INSET, LENGTH
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core import checks
 from seisblock.core.errors import OutputError
 from seisblock.core.i18n import gettext
@@ -174,7 +173,7 @@ def body(
         output,
         tables=lambda: text_output.tables(scan_result, directions, gal=output.gal),
         csv=lambda path: text_output.write_csv(path, directions),
-        figure=lambda: _draw(scan_result),
+        figure=figure_of("body:figure", scan_result),
     )
 
 
@@ -190,9 +189,3 @@ def _check_subject(scan: str | None, kind: str | None, width: float | None, heig
         raise click.UsageError(gettext("--kind requires --width and --height"))
     else:
         reject_with("--kind", ["density", "inset", "tolerance", "unit", "up", "facing", "name", "step", "gravity"])
-
-
-def _draw(scan_result: Any) -> Any:
-    from seisblock.report.figures.body import figure
-
-    return figure(scan_result)

@@ -65,7 +65,7 @@ def criteria(
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.peaks import parse_peaks, write_peaks
-    from seisblock.cli.write_results import write_results
+    from seisblock.cli.write_results import figure_of, write_results
     from seisblock.records import motion_of
     from seisblock.records._validation import vertical_acts
     from seisblock.report.json.criteria import CRITERIA_PEAKS, document
@@ -102,11 +102,5 @@ def criteria(
         output,
         tables=lambda: text_output.tables(cards, gal=output.gal),
         csv=lambda path: text_output.write_csv(path, cards),
-        figure=lambda: _draw(cards, gal=output.gal),
+        figure=figure_of("criteria:figure", cards, gal=output.gal),
     )
-
-
-def _draw(cards: Any, *, gal: bool) -> Any:
-    from seisblock.report.figures.criteria import figure
-
-    return figure(cards, gal=gal)

@@ -15,7 +15,7 @@ from seisblock.cli.command import Command, argument, option
 from seisblock.cli.options import Source, output_options, preparation_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import Count
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.limits import MAX_RUNS, MAX_VALUES
@@ -155,17 +155,18 @@ def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> 
     acts = vertical_acts((observation.motion for observation in observed), options["vertical"])
     answer = document(result, observed, block, outcomes, vertical=acts, gravity=options["gravity"])
 
-    def figure() -> Any:
-        from seisblock.report.figures.fit import fit_figure
-
-        return fit_figure(result, Path(outcomes).name, gal=output.gal)
-
     def csv(path: Path) -> None:
         from seisblock.output.io.atomic import write_table
 
         write_table(path, *text_output.csv_columns(result, observed))
 
-    write_results(answer, output, tables=lambda: text_output.tables(result, observed, Path(outcomes).name), figure=figure, csv=csv)
+    write_results(
+        answer,
+        output,
+        tables=lambda: text_output.tables(result, observed, Path(outcomes).name),
+        figure=figure_of("fit:fit_figure", result, Path(outcomes).name, gal=output.gal),
+        csv=csv,
+    )
 
 
 def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:

@@ -22,7 +22,7 @@ from seisblock.cli.options import Source, displaced_record_options, output_optio
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_RUNS
 from seisblock.models.jump.options import LANDINGS
@@ -338,18 +338,13 @@ def _infer_from_displacement(source: Source, output: OutputOptions, params: dict
 
         return factor_tables(curves, gal=output.gal, displacement_kind=N_("displacement") if params["slid"] is None else N_("slip"))
 
-    def figure() -> Any:
-        from seisblock.report.figures.infer import factor_figure
-
-        return factor_figure(curves, gal=output.gal)
-
     def csv(path: Path) -> None:
         from seisblock.output.io.atomic import write_table
         from seisblock.report.text.infer import factor_csv
 
         write_table(path, *factor_csv(curves))
 
-    write_results(answer, output, tables=tables, figure=figure, csv=csv)
+    write_results(answer, output, tables=tables, figure=figure_of("infer:factor_figure", curves, gal=output.gal), csv=csv)
 
 
 def _infer_from_twist(source: Source, output: OutputOptions, params: dict[str, Any]) -> None:
@@ -405,18 +400,13 @@ def _infer_from_twist(source: Source, output: OutputOptions, params: dict[str, A
 
         return twist_tables(results, station, level=params["confidence"], limit=params["limit"], gal=output.gal)
 
-    def figure() -> Any:
-        from seisblock.report.figures.infer import twist_figure
-
-        return twist_figure(results, gal=output.gal)
-
     def csv(path: Path) -> None:
         from seisblock.output.io.atomic import write_table
         from seisblock.report.text.infer import twist_csv
 
         write_table(path, *twist_csv(results))
 
-    write_results(answer, output, tables=tables, figure=figure, csv=csv)
+    write_results(answer, output, tables=tables, figure=figure_of("infer:twist_figure", results, gal=output.gal), csv=csv)
 
 
 def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:

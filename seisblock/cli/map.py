@@ -111,7 +111,7 @@ def map(  # noqa: A001 - the command's name
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.cli.load_records import check_single_window, make_preparation
     from seisblock.cli.progress import progress
-    from seisblock.cli.write_results import write_results
+    from seisblock.cli.write_results import figure_of, write_results
     from seisblock.core.errors import ParameterError, RecordError
     from seisblock.output.io.atomic import check_distinct_outputs
     from seisblock.output.io.suffix import check_text_suffix
@@ -174,18 +174,15 @@ def map(  # noqa: A001 - the command's name
         rows = [station_row(answer) for answer in stations.answers]
         write_table(path, list(rows[0]), (list(row.values()) for row in rows))
 
-    def figure() -> Any:
-        from seisblock.report.figures.stations import figure as make_figure
-
-        return make_figure(stations, model, gal=output.gal, surveys=surveys)
-
     def tables() -> Iterator[Any]:
         yield from text_output.tables(stations, model, gal=output.gal)
         if surveys:
             yield from text_output.survey_tables(surveys)
 
     result = document(stations, model, surveys, upstairs=source.floor is not None)
-    write_results(result, output, tables=tables, csv=table, figure=figure)
+    write_results(
+        result, output, tables=tables, csv=table, figure=figure_of("stations:figure", stations, model, gal=output.gal, surveys=surveys)
+    )
 
 
 def _station_model(

@@ -85,49 +85,6 @@ def _split_components(ctx: click.Context, param: click.Parameter, value: tuple[s
     return tuple(name for group in names for name in group)
 
 
-def _record_argument(help_text: str) -> Callable[[Function], Function]:
-    """Return the argument RECORD with its help text."""
-    return argument(
-        "record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=shell_completion.complete_records, help=help_text
-    )
-
-
-_RECORD = _record_argument(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: synthetic_jma.csv, bundled]")
-)
-_CURVE_RECORD = _record_argument(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: none, curve of the rate]")
-)
-_DISPLACED_RECORD = _record_argument(
-    N_(
-        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
-        "[default: synthetic_jma.csv, bundled, with --slid or --jumped; else none]"
-    )
-)
-_HARMONIC_RECORD = _record_argument(
-    N_(
-        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
-        "[default: synthetic_jma.csv, bundled; none with --harmonic]"
-    )
-)
-_CRITERION_RECORD = _record_argument(
-    N_(
-        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
-        "[default: synthetic_jma.csv, bundled; none with --criterion]"
-    )
-)
-_REAL_RECORD = _record_argument(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: hanmer_springs_2016, bundled]")
-)
-_SUITE_RECORD = _record_argument(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: records of --suite]")
-)
-_ITEM_RECORD = _record_argument(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: data of the paper]")
-)
-_SCENARIO_RECORD = _record_argument(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: suite scaled to the scenario]")
-)
 _RECORD_OPTIONS = (
     option(
         "--component",
@@ -285,49 +242,67 @@ _DETAILS = option("--details", is_flag=True, section="Output", help="Print the w
 _QUIET = option("--quiet", is_flag=True, section="Output", help="Print only errors and one line of quality warnings on stderr.")
 
 
-def record_options(function: Function) -> Function:
-    """Add RECORD and the options of its selection and preparation to a command, as one ``source``."""
-    return _collect_options(function, (_RECORD, *_RECORD_OPTIONS), Source, "source")
+def _record_options(help_text: str) -> Callable[[Function], Function]:
+    """Return a decorator that adds RECORD, with its help text, and the record options to a command."""
+    record = argument(
+        "record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=shell_completion.complete_records, help=help_text
+    )
+    return lambda function: _collect_options(function, (record, *_RECORD_OPTIONS), Source, "source")
 
 
-def curve_record_options(function: Function) -> Function:
-    """Add the record options of ``overturn-rate``, which gives a curve without a record."""
-    return _collect_options(function, (_CURVE_RECORD, *_RECORD_OPTIONS), Source, "source")
+record_options = _record_options(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: synthetic_jma.csv, bundled]")
+)
+"""RECORD and the options of its selection and preparation, as one ``source``."""
 
+curve_record_options = _record_options(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: none, curve of the rate]")
+)
+"""Record options of ``overturn-rate``, which gives a curve without a record."""
 
-def displaced_record_options(function: Function) -> Function:
-    """Add the record options of ``infer``, which has a default record for displaced objects only."""
-    return _collect_options(function, (_DISPLACED_RECORD, *_RECORD_OPTIONS), Source, "source")
+displaced_record_options = _record_options(
+    N_(
+        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
+        "[default: synthetic_jma.csv, bundled, with --slid or --jumped; else none]"
+    )
+)
+"""Record options of ``infer``, which has a default record for displaced objects only."""
 
+harmonic_record_options = _record_options(
+    N_(
+        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
+        "[default: synthetic_jma.csv, bundled; none with --harmonic]"
+    )
+)
+"""Record options of ``uplift``, which has no record under harmonic motion."""
 
-def harmonic_record_options(function: Function) -> Function:
-    """Add the record options of ``uplift``, which has no record under harmonic motion."""
-    return _collect_options(function, (_HARMONIC_RECORD, *_RECORD_OPTIONS), Source, "source")
+criterion_record_options = _record_options(
+    N_(
+        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
+        "[default: synthetic_jma.csv, bundled; none with --criterion]"
+    )
+)
+"""Record options of ``stack``, which has no default record in a criterion study."""
 
+real_record_options = _record_options(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: hanmer_springs_2016, bundled]")
+)
+"""Record options with a recorded motion as default."""
 
-def criterion_record_options(function: Function) -> Function:
-    """Add the record options of ``stack``, which has no default record in a criterion study."""
-    return _collect_options(function, (_CRITERION_RECORD, *_RECORD_OPTIONS), Source, "source")
+suite_record_options = _record_options(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: records of --suite]")
+)
+"""Record options with a synthetic suite as default."""
 
+item_record_options = _record_options(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: data of the paper]")
+)
+"""Record options of ``paper``, whose items have data of their own."""
 
-def real_record_options(function: Function) -> Function:
-    """Add the record options with a recorded motion as default."""
-    return _collect_options(function, (_REAL_RECORD, *_RECORD_OPTIONS), Source, "source")
-
-
-def item_record_options(function: Function) -> Function:
-    """Add the record options of ``paper``, whose items have data of their own."""
-    return _collect_options(function, (_ITEM_RECORD, *_RECORD_OPTIONS), Source, "source")
-
-
-def suite_record_options(function: Function) -> Function:
-    """Add the record options with a synthetic suite as default."""
-    return _collect_options(function, (_SUITE_RECORD, *_RECORD_OPTIONS), Source, "source")
-
-
-def scenario_record_options(function: Function) -> Function:
-    """Add the record options of a scenario, whose default records are a suite scaled to its intensity."""
-    return _collect_options(function, (_SCENARIO_RECORD, *_RECORD_OPTIONS), Source, "source")
+scenario_record_options = _record_options(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: suite scaled to the scenario]")
+)
+"""Record options of a scenario, whose default records are a suite scaled to its intensity."""
 
 
 def preparation_options(function: Function) -> Function:

@@ -49,7 +49,7 @@ def paper(source: Source, output: OutputOptions, paper: str | None, item: str | 
     Without ITEM, the list of items. The first line says how many statements of the paper on this item hold; those that differ follow
     with their cause.
     """
-    from seisblock.cli.write_results import write_results
+    from seisblock.cli.write_results import figure_of, write_results
     from seisblock.paper import Inputs, find_item, find_paper, papers
     from seisblock.report.json.paper import document
     from seisblock.report.text import paper as text_output
@@ -83,7 +83,7 @@ def paper(source: Source, output: OutputOptions, paper: str | None, item: str | 
         output,
         tables=lambda: text_output.tables(chosen_paper, chosen_item, answer, own=any(given_inputs.values())),
         csv=lambda path: _write_csv(path, answer),
-        figure=lambda: _draw(chosen_paper, chosen_item, answer),
+        figure=figure_of("paper:figure", chosen_paper, chosen_item, answer),
     )
 
 
@@ -101,9 +101,3 @@ def _write_csv(path: Path, answer: Any) -> None:
     from seisblock.output.io.atomic import write_table
 
     write_table(path, [column.key for column in answer.columns], answer.rows)
-
-
-def _draw(paper: Any, item: Any, answer: Any) -> Any:
-    from seisblock.report.figures.paper import figure
-
-    return figure(paper, item, answer)

@@ -9,7 +9,7 @@ from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.scenario_records import resolve_pgv
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.errors import ParameterError
 from seisblock.core.units import GAL, KINE
 
@@ -50,15 +50,10 @@ def write_peaks(result: PeakAssessment, document: Document, output: OutputOption
     """Print the answer for a pair of peaks and write its files."""
     from seisblock.report.text import peaks as text_output
 
-    def figure() -> Any:
-        from seisblock.report.figures.criteria import peaks_figure
-
-        return peaks_figure(result, gal=output.gal)
-
     write_results(
         document,
         output,
         tables=lambda: text_output.tables(result, gal=output.gal),
         csv=lambda path: text_output.write_csv(path, result),
-        figure=figure,
+        figure=figure_of("criteria:peaks_figure", result, gal=output.gal),
     )

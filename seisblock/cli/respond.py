@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from seisblock.bodies.scan.body import ScannedBody
-from seisblock.cli.azimuth_sweep import assessed_figure, sweep_block, sweep_motions
+from seisblock.cli.azimuth_sweep import assessed_figure, ranked_sweep, sweep_block, sweep_motions
 from seisblock.cli.bodies.free_standing import FreeStandingChoice, choose_free_standing, free_standing_list_options
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
@@ -24,8 +24,6 @@ from seisblock.models.rigid3d.options import Rigid3dOptions
 
 if TYPE_CHECKING:
     from seisblock.core.results import Response
-    from seisblock.records import Record
-    from seisblock.studies.respond.azimuths import RespondAzimuth
     from seisblock.studies.sampling import ParameterVariation
 
 PLANAR_OPTIONS = ("mu_kinetic", "rocking_restitution")
@@ -117,7 +115,7 @@ def respond(
             gravity=gravity,
             settle_s=settle_s,
         )
-        motions = motions or list(sweep_motions(source, _azimuth_study(choice.body, options, runs, variation, seed, replaced)))
+        motions = motions or list(sweep_motions(source, ranked_sweep("respond", choice.body, options, runs, variation, seed, replaced)))
         for motion, directions in motions:
             block = sweep_block(choice, motion, directions)
             responses.append(solve_respond(block, motion, **options.keywords()))
@@ -170,22 +168,3 @@ def _solve_in_space(
     if params["tenon"]:
         raise ParameterError("{flag} has no effect with --three-d: omit it", flag="--tenon")
     solve_in_space(source, output, choice, options, variation, **samples)
-
-
-def _azimuth_study(
-    body: Any, options: RespondOptions, runs: int, variation: ParameterVariation, seed: int, known: Sequence[str]
-) -> Callable[[Record], Sequence[RespondAzimuth]]:
-    """Return a function that solves all azimuths of a record, with samples in each."""
-
-    def look(record: Record) -> Sequence[RespondAzimuth]:
-        from seisblock.cli.progress import progress
-        from seisblock.studies.azimuth_probability import rank_by_probability
-        from seisblock.studies.respond.azimuths import respond_directions
-
-        results = respond_directions(body, record, options)
-        if not runs or not any(result.moves for result in results):
-            return results
-        with progress("azimuths") as advance:
-            return rank_by_probability("respond", body, record, results, options, runs, variation, seed=seed, known=known, progress=advance)
-
-    return look

@@ -13,7 +13,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.options import check_callback, output_options
 from seisblock.cli.output import OutputOptions
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core import checks
 from seisblock.core.i18n import gettext
 
@@ -99,18 +99,15 @@ def risk(output: OutputOptions, hazard: Path, years: float, stood: float | None,
 
         return text_output(risks, site, gal=output.gal)
 
-    def figure() -> Any:
-        from seisblock.report.figures.risk import figure as make_figure
-
-        return make_figure(risks, site, gal=output.gal)
-
     def csv(path: Path) -> None:
         from seisblock.output.io.atomic import write_table
         from seisblock.report.text.risk import csv_columns
 
         write_table(path, *csv_columns(risks, site))
 
-    write_results(document(risks, site, hazard.name), output, tables=tables, figure=figure, csv=csv)
+    write_results(
+        document(risks, site, hazard.name), output, tables=tables, figure=figure_of("risk:figure", risks, site, gal=output.gal), csv=csv
+    )
 
 
 def _load_inputs(path: Path, params: dict[str, Any]) -> tuple[Hazard, tuple[FragilityCurve, ...]]:

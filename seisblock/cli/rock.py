@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from seisblock.cli.azimuth_sweep import assessed_figure, sweep_block, sweep_motions
+from seisblock.cli.azimuth_sweep import assessed_figure, ranked_sweep, sweep_block, sweep_motions
 from seisblock.cli.bodies.options import azimuth_option, block_list_options
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
@@ -29,9 +28,8 @@ from seisblock.models.rock.options import RockOptions
 if TYPE_CHECKING:
     from seisblock.bodies.block import Block
     from seisblock.core.results import Response
-    from seisblock.records import Motion, Record
+    from seisblock.records import Motion
     from seisblock.records._validation import Gain
-    from seisblock.studies.sampling import ParameterVariation
 
 
 @click.command(
@@ -149,7 +147,7 @@ def rock(
             _rock_under_suite(choice.block, peaks, options, seed, output)
             return
         runs = RUNS if perturb is None else perturb
-        motions = motions or list(sweep_motions(source, _azimuth_study(choice.body, options, runs, variation, seed)))
+        motions = motions or list(sweep_motions(source, ranked_sweep("rock", choice.body, options, runs, variation, seed)))
         for motion, directions in motions:
             require_vertical(motion, vertical)
             block = sweep_block(choice, motion, directions)
@@ -206,25 +204,6 @@ def _rock_under_suite(block: Block, peaks: tuple[float, float], options: RockOpt
     with progress("records") as advance:
         result = assess_peaks(block, *peaks, records=records, options=options, seed=seed, progress=advance)
     write_peaks(result, document(result, ROCK_PEAKS, options, seed=seed, notes=notes), output)
-
-
-def _azimuth_study(
-    body: Any, options: RockOptions, runs: int, variation: ParameterVariation, seed: int
-) -> Callable[[Record], Sequence[Any]]:
-    """Return a function that solves all azimuths of a record, with samples in each."""
-
-    def look(record: Record) -> Sequence[Any]:
-        from seisblock.studies.azimuth_probability import rank_by_probability
-        from seisblock.studies.rocking.azimuths import rock_directions
-
-        with progress("azimuths") as advance:
-            results = rock_directions(body, record, progress=advance, options=options)
-        if not any(result.moves for result in results):
-            return results
-        with progress("azimuths") as advance:
-            return rank_by_probability("rock", body, record, results, options, runs, variation, seed=seed, progress=advance)
-
-    return look
 
 
 def require_vertical(motion: Motion, vertical: Gain | None) -> None:

@@ -16,7 +16,7 @@ from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source
 from seisblock.cli.output import STDOUT, OutputOptions
 from seisblock.cli.progress import progress
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.errors import OutputError, ParameterError
 from seisblock.core.i18n import gettext, lazy_gettext
 from seisblock.output.io.atomic import check_distinct_outputs, write_records, write_table, write_text
@@ -85,17 +85,12 @@ def run_study(
 
     _write_exports(study, params)
 
-    def figure() -> Any:
-        from seisblock.report.figures.fragility import figure as make_figure
-
-        return make_figure(study, gal=output.gal, compare=comparison)
-
     write_results(
         document(study, placed_bodies, parameters, compare=comparison, notes=left_out),
         output,
         tables=lambda: text_output.tables(study, gal=output.gal, compare=comparison),
         csv=lambda path: write_table(path, *text_output.csv_columns(study)),
-        figure=figure,
+        figure=figure_of("fragility:figure", study, gal=output.gal, compare=comparison),
     )
 
 

@@ -129,7 +129,7 @@ def scenario(
     """
     from seisblock.bodies.table import read_body_list
     from seisblock.cli.progress import progress
-    from seisblock.cli.write_results import write_results
+    from seisblock.cli.write_results import figure_of, write_results
     from seisblock.output.io.atomic import check_distinct_outputs, write_table, write_text
     from seisblock.output.io.suffix import check_text_suffix
     from seisblock.output.io.workbook import check_workbook, write_workbook
@@ -161,15 +161,10 @@ def scenario(
         write_workbook(xlsx, *text_output.sheet_rows(results))
         info("wrote {path}", path=xlsx)
 
-    def figure() -> Any:
-        from seisblock.report.figures.scenario import figure as make_figure
-
-        return make_figure(results, motions.label)
-
     write_results(
         document(results, motions, {"mu": mu, "vertical": vertical, "seed": seed, "gravity_m_s2": gravity}, notes=(*motions.notes, *notes)),
         output,
         tables=lambda: text_output.tables(results, motions.label),
         csv=lambda path: write_table(path, *text_output.csv_columns(results), bom=True),
-        figure=figure,
+        figure=figure_of("scenario:figure", results, motions.label),
     )

@@ -112,7 +112,7 @@ def secure(
     from seisblock.bodies.table import read_body_list
     from seisblock.cli.bodies.body_spec import make_body_spec
     from seisblock.cli.progress import progress
-    from seisblock.cli.write_results import write_results
+    from seisblock.cli.write_results import figure_of, write_results
     from seisblock.core.errors import ParameterError
     from seisblock.output.io.atomic import write_table
     from seisblock.report.json.secure import document
@@ -162,11 +162,6 @@ def secure(
         notes = (*notes, lazy_gettext(text, runs=result.runs, limit=limit))
         warning("{note}", note=notes[-1])
 
-    def figure() -> Any:
-        from seisblock.report.figures.secure import figure as make_figure
-
-        return make_figure(result, motions.label)
-
     write_results(
         document(
             result,
@@ -180,7 +175,7 @@ def secure(
         output,
         tables=lambda: text_output.tables(result, motions.label),
         csv=lambda path: write_table(path, *text_output.csv_columns(result), bom=True),
-        figure=figure,
+        figure=figure_of("secure:figure", result, motions.label),
     )
 
 

@@ -17,7 +17,7 @@ from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import FLOATS, LENGTH, MUS
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import gettext, lazy_gettext
 from seisblock.models.slide.options import SlideOptions
 from seisblock.records.motion import ALL_AZIMUTHS
@@ -217,7 +217,9 @@ def _run_study(
         output,
         tables=lambda: text_output.tables(records, points, gal=output.gal),
         csv=lambda path: write_table(path, *text_output.study_csv(records, points)),
-        figure=lambda: _draw(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"], gal=output.gal),
+        figure=figure_of(
+            "slide_study:figure", records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"], gal=output.gal
+        ),
     )
 
 
@@ -242,9 +244,3 @@ def _without_azimuths(source: Source) -> Source:
     from dataclasses import replace
 
     return replace(source, component=())
-
-
-def _draw(*data: Any, **fixed: Any) -> Any:
-    from seisblock.report.figures.slide_study import figure
-
-    return figure(*data, **fixed)

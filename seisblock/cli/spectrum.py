@@ -159,7 +159,7 @@ def spectrum(
         _run_modes(source, output, gravity, (mu, diagonals, alphas, steps), restitution or 0.0, inset or SHARP_EDGES, vertical)
         return
     _reject_options(kind, {"mu": mu})
-    from seisblock.cli.write_results import write_results
+    from seisblock.cli.write_results import figure_of, write_results
     from seisblock.records._validation import vertical_acts
     from seisblock.report.json.spectrum import document
     from seisblock.report.text import spectrum as text_output
@@ -174,7 +174,7 @@ def spectrum(
         output,
         tables=lambda: text_output.tables(spectra, kind, _wear_note(inset)),
         csv=lambda path: text_output.write_csv(path, spectra),
-        figure=lambda: _draw(spectra, kind, gravity),
+        figure=figure_of("spectrum:figure", spectra, kind, gravity),
     )
 
 
@@ -214,7 +214,7 @@ def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tupl
     """Run ``--kind sliding``."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
-    from seisblock.cli.write_results import write_results
+    from seisblock.cli.write_results import figure_of, write_results
     from seisblock.records._validation import vertical_acts
     from seisblock.report.json.spectrum import sliding_document
     from seisblock.report.text import sliding_spectrum as text_output
@@ -231,7 +231,7 @@ def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tupl
         output,
         tables=lambda: text_output.tables(curves),
         csv=lambda path: text_output.write_csv(path, curves),
-        figure=lambda: _draw_sliding(curves),
+        figure=figure_of("sliding_spectrum:figure", curves),
     )
 
 
@@ -247,7 +247,7 @@ def _run_modes(
     """Run ``--kind modes``; `grid` holds frictions, diagonals and slendernesses (None: default) and steps."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
-    from seisblock.cli.write_results import write_results
+    from seisblock.cli.write_results import figure_of, write_results
     from seisblock.records._validation import vertical_acts
     from seisblock.report.json.spectrum import modes_document
     from seisblock.report.text import mode_map as text_output
@@ -267,7 +267,7 @@ def _run_modes(
         output,
         tables=lambda: text_output.tables(maps, _wear_note(inset)),
         csv=lambda path: text_output.write_csv(path, maps),
-        figure=lambda: _draw_modes(maps),
+        figure=figure_of("mode_map:figure", maps),
     )
 
 
@@ -300,21 +300,3 @@ def _check_exclusive(first: Any, name: str, second: Any, second_name: str) -> No
     """Raise an error for two mutually exclusive options."""
     if first and second:
         raise ParameterError("{name} and {other} exclude each other: give only one of them", name=name, other=second_name)
-
-
-def _draw(*data: Any) -> Any:
-    from seisblock.report.figures.spectrum import figure
-
-    return figure(*data)
-
-
-def _draw_modes(maps: Any) -> Any:
-    from seisblock.report.figures.mode_map import figure
-
-    return figure(maps)
-
-
-def _draw_sliding(curves: Any) -> Any:
-    from seisblock.report.figures.sliding_spectrum import figure
-
-    return figure(curves)

@@ -18,7 +18,7 @@ from seisblock.cli.options import Source, criterion_record_options, output_optio
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.sampling_options import pop_spreads, version_options
 from seisblock.cli.types import INSET, MU, ContactType
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.models.stack.options import EDGES, GRID, RIGID, SPRINGS, StackOptions
 
@@ -313,11 +313,5 @@ def _run_study(
         output,
         tables=lambda: text_output.tables(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
         csv=lambda path: text_output.write_csv(study, record_levels, path),
-        figure=lambda: _draw(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
+        figure=figure_of("stack_criterion:figure", study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
     )
-
-
-def _draw(*data: Any, **choice: Any) -> Any:
-    from seisblock.report.figures.stack_criterion import figure
-
-    return figure(*data, **choice)

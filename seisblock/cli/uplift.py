@@ -16,7 +16,7 @@ from seisblock.cli.options import Source, harmonic_record_options, output_option
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, LENGTH, MASS
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.errors import ParameterError
 from seisblock.models.uplift.options import UpliftOptions
 
@@ -171,14 +171,8 @@ def _run_harmonic(source: Source, output: OutputOptions, figure: int | None, par
         output,
         tables=lambda: text_output.tables(regions, all_rows=params["frequency_ratio"] is not None),
         csv=lambda path: text_output.write_csv(path, regions),
-        figure=lambda: _draw(regions, figure),
+        figure=figure_of("uplift_harmonic:harmonic_figure", regions, figure),
     )
-
-
-def _draw(regions: Any, figure: int | None) -> Any:
-    from seisblock.report.figures.uplift_harmonic import harmonic_figure
-
-    return harmonic_figure(regions, figure)
 
 
 def _single_value(name: str, value: Any) -> Any:

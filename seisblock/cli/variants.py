@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from seisblock.cli.azimuth_sweep import is_azimuth_sweep
 from seisblock.cli.options import Source
 from seisblock.cli.output import OutputOptions
-from seisblock.cli.write_results import write_results
+from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.errors import OutputError, ParameterError
 from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.limits import MAX_VALUES, check_limit
@@ -61,15 +61,10 @@ def write_variants(document: Document, output: OutputOptions, responses: list[Re
     """Print the comparison of variants and write its files."""
     from seisblock.report.text import variants as text_output
 
-    def figure() -> Any:
-        from seisblock.report.figures.variants import figure as make_figure
-
-        return make_figure(responses, extras, gal=output.gal)
-
     write_results(
         document,
         output,
         tables=lambda: text_output.tables(responses, extras, gal=output.gal),
         csv=lambda path: text_output.write_csv(path, responses, extras),
-        figure=figure,
+        figure=figure_of("variants:figure", responses, extras, gal=output.gal),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pkgutil
 import shutil
 import sys
 import tempfile
@@ -29,6 +30,15 @@ if TYPE_CHECKING:
 
 AT_REST = ("rest", "stick")
 """Phases without motion relative to the ground."""
+
+
+def figure_of(reference: str, *args: Any, **keywords: Any) -> Callable[[], Figure]:
+    """Return a function that draws a figure, ``module:name`` in :mod:`seisblock.report.figures`, which is imported then."""
+
+    def draw() -> Figure:
+        return pkgutil.resolve_name(f"seisblock.report.figures.{reference}")(*args, **keywords)  # type: ignore[no-any-return]
+
+    return draw
 
 
 def write_results(

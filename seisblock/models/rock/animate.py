@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,6 @@ from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.models.rock.plot import COLOURS, motion_interval
-from seisblock.models.rock.solve import solve_rock
 from seisblock.output.animation.animation import Animation, Line, Strip, ground_strip, sample_at
 from seisblock.output.animation.render import REAL_TIME, AnimationOptions
 from seisblock.output.animation.scene2d import Body, Piece, Scene2D, ground_shift, rectangle, rotate
@@ -68,24 +66,6 @@ def rocking_animation(response: Response[RockOutcome], times: FloatArray, *, gal
     )
 
 
-def extend_to_fall(response: Response[RockOutcome]) -> Response[RockOutcome]:
-    """Extend a response beyond the record until the block has overturned, if it overturns after the record."""
-    outcome, motion, options = response.outcome, response.motion, response.options
-    if not (outcome.decided_after_record and outcome.overturning_time_s is not None):
-        return response
-    padding = math.ceil((outcome.overturning_time_s - response.time[-1]) / motion.dt) + 2
-    longer = replace(motion, rows=np.pad(motion.acceleration, ((0, 0), (0, padding))))
-    return solve_rock(
-        response.body,
-        longer,
-        restitution=options.restitution,
-        linear=options.linear,
-        vertical=options.vertical,
-        gravity=options.gravity,
-        initial=(float(response["rotation"][0]), float(response["angular_velocity"][0])),
-    )
-
-
 def corners(block: Block, theta: float) -> FloatArray:
     """Return the corners of the tilted block, (4, 2), or (6, 2) with worn edges, m, from the middle of its base at rest."""
     half, top, bevel = block.width / 2, block.height, block.inset
@@ -110,12 +90,6 @@ def ground_heights(outline: FloatArray, z: FloatArray, turn: FloatArray) -> Floa
     # vertical position of the lowest corner after rotation by `turn`
     lowest = (np.outer(np.cos(turn), outline[:, 1]) - np.outer(np.sin(turn), outline[:, 0])).min(axis=1)
     return z - np.minimum(z + lowest, 0.0)
-
-
-def centroid_position(block: Block, theta: float) -> tuple[float, float]:
-    """Return the position of the centre of gravity of the tilted block, m."""
-    x, z = _rotate_about_corner(np.array([[block.centroid_offset, block.centre]]), block, theta)[0]
-    return float(x), float(z)
 
 
 def _rotate_about_corner(points: FloatArray, block: Block, theta: float) -> FloatArray:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any, TypeVar
 
 from msgspec import Struct
 
@@ -12,14 +11,7 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import TwoLayerBlock
-from seisblock.output.json.units import split_unit
-
-Entry = TypeVar("Entry", bound=Struct)
-
-
-def _to_entry(kind: type[Entry], body: Any, **values: Any) -> Entry:
-    """Return an entry with each key from the attribute of its name without the unit, unless given."""
-    return kind(**{key: values[key] if key in values else getattr(body, split_unit(key)[0]) for key in kind.__struct_fields__})
+from seisblock.output.json.schema import fill
 
 
 class BlockEntry(Struct, frozen=True, kw_only=True):
@@ -56,7 +48,7 @@ class BlockEntry(Struct, frozen=True, kw_only=True):
 def block_entry(block: Block) -> BlockEntry:
     """Return the entry of a block."""
     right, left = block.slendernesses
-    return _to_entry(
+    return fill(
         BlockEntry,
         block,
         depth_m=block.width if block.depth is None else block.depth,
@@ -93,7 +85,7 @@ class TwoLayerEntry(Struct, frozen=True, kw_only=True):
 
 def two_layer_entry(block: TwoLayerBlock) -> TwoLayerEntry:
     """Return the entry of a two-layer block."""
-    return _to_entry(TwoLayerEntry, block)
+    return fill(TwoLayerEntry, block)
 
 
 class SpringBlockEntry(Struct, frozen=True, kw_only=True):
@@ -128,7 +120,7 @@ class SpringBlockEntry(Struct, frozen=True, kw_only=True):
 def spring_block_entry(body: SpringBlock) -> SpringBlockEntry:
     """Return the entry of a block on corner springs."""
     stiffness = dict(zip("xyz", body.stiffness, strict=True))
-    return _to_entry(SpringBlockEntry, body, stiffness_n_m=stiffness, frequency_vertical_hz=body.omega[2] / (2.0 * math.pi))
+    return fill(SpringBlockEntry, body, stiffness_n_m=stiffness, frequency_vertical_hz=body.omega[2] / (2.0 * math.pi))
 
 
 class StoneEntry(Struct, frozen=True, kw_only=True):
@@ -193,8 +185,8 @@ class PileEntry(Struct, frozen=True, kw_only=True):
 
 def pile_entry(pile: Pile) -> PileEntry:
     """Return the entry of a pile."""
-    stones = tuple(_to_entry(StoneEntry, stone, inset_m=stone.insets()) for stone in pile.stones)
-    return _to_entry(PileEntry, pile, mu_kinetic=pile.friction()[1], stones=stones)
+    stones = tuple(fill(StoneEntry, stone, inset_m=stone.insets()) for stone in pile.stones)
+    return fill(PileEntry, pile, mu_kinetic=pile.friction()[1], stones=stones)
 
 
 class PileContactEntry(Struct, frozen=True, kw_only=True):
@@ -224,4 +216,4 @@ class PileContactEntry(Struct, frozen=True, kw_only=True):
 
 def pile_contact_entry(contact: PileContact) -> PileContactEntry:
     """Return the entry of the spring contact of a pile."""
-    return _to_entry(PileContactEntry, contact)
+    return fill(PileContactEntry, contact)

@@ -29,6 +29,7 @@ def entry_type(
     extra: Mapping[str, Any] | None = None,
     aliases: Mapping[str, str] | None = None,
     exclude: tuple[str, ...] = (),
+    bases: tuple[type[Struct], ...] = (Result,),
 ) -> type[Result]:
     """Return a struct type with a key for each field of a dataclass.
 
@@ -43,6 +44,8 @@ def entry_type(
         Keys of fields that go by another name in documents.
     exclude : tuple of str
         Fields that are no keys.
+    bases : tuple of type
+        Empty for an entry inside a result.
     """
     hints = get_type_hints(source, include_extras=True)
     own_fields = {(aliases or {}).get(field.name, field.name): hints[field.name] for field in fields(source) if field.name not in exclude}
@@ -50,7 +53,7 @@ def entry_type(
         (key, kind, msgspec.UNSET) if is_optional(kind) else (key, kind)
         for key, kind in {**(leading or {}), **own_fields, **(extra or {})}.items()
     ]
-    result_type: Any = msgspec.defstruct(name, declared, bases=(Result,), frozen=True, kw_only=True, namespace={"__doc__": source.__doc__})
+    result_type: Any = msgspec.defstruct(name, declared, bases=bases, frozen=True, kw_only=True, namespace={"__doc__": source.__doc__})
     return result_type  # type: ignore[no-any-return]
 
 

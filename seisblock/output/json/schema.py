@@ -6,17 +6,32 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import msgspec
+import numpy as np
 from msgspec import UNSET, Meta, Struct, UnsetType
 
 from seisblock import __version__
+from seisblock.output.json.units import split_unit
 from seisblock.records import QCFlag, Record
 from seisblock.records.floor import is_floor_motion
 from seisblock.records.qc_report import RecordChecks, qc_summary, record_checks
 from seisblock.records.site import Earthquake, epicentral_distance_km, format_local_time, get_earthquake, get_site
 from seisblock.references import papers
+
+Entry = TypeVar("Entry", bound=Struct)
+
+
+def fill(kind: type[Entry], *sources: Any, **values: Any) -> Entry:
+    """Return an entry from values of its keys, and from the first object with an attribute of the name of another key, unit aside."""
+    for key in kind.__struct_fields__:
+        if key not in values:
+            names = (key, split_unit(key)[0])
+            found = next((getattr(source, name) for source in sources for name in names if hasattr(source, name)), UNSET)
+            if found is not UNSET:
+                values[key] = found.tolist() if isinstance(found, np.ndarray) else found
+    return kind(**values)
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
@@ -69,14 +84,7 @@ def _record_earthquake(record: Record) -> EarthquakeEntry | None:
 
 def earthquake_entry(earthquake: Earthquake) -> EarthquakeEntry:
     """Return the entry of an earthquake."""
-    return EarthquakeEntry(
-        origin_time=earthquake.origin_time.isoformat() if earthquake.origin_time else None,
-        latitude_deg=earthquake.latitude_deg,
-        longitude_deg=earthquake.longitude_deg,
-        depth_km=earthquake.depth_km,
-        magnitude=earthquake.magnitude,
-        name=earthquake.name,
-    )
+    return fill(EarthquakeEntry, earthquake, origin_time=earthquake.origin_time.isoformat() if earthquake.origin_time else None)
 
 
 class RecordEntry(Struct, frozen=True, kw_only=True):
@@ -146,29 +154,21 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
 def record_entry(record: Record) -> RecordEntry:
     """Return the entry of a record."""
     site = get_site(record)
-    return RecordEntry(
-        network=record.network,
-        station=record.station,
-        location=record.location,
+    return fill(
+        RecordEntry,
+        record,
+        site,
         station_name=site.name,
-        latitude_deg=site.latitude_deg,
-        longitude_deg=site.longitude_deg,
         local_start=format_local_time(record, record.start),
         earthquake=_record_earthquake(record),
         epicentral_distance_km=epicentral_distance_km(record),
         start=record.start.isoformat() if record.start else None,
-        dt_s=record.dt,
-        samples=record.samples,
-        sha256=record.sha256,
-        format=record.format,
         source=Path(record.source).name if record.source else "",
         components=record.codes,
-        offset_s=record.offset_s,
         history=tuple(record.history),
         channels=tuple(record.channels.get(code) for code in record.codes),
         azimuths_deg=tuple(c.azimuth_deg for c in record.components),
         checks=record_checks(record),
-        doubts=record.doubts,
     )
 
 

@@ -32,9 +32,6 @@ MARKERS = "osD^vP"
 BIN = 0.25
 """Width of the histogram's bins of H/B."""
 
-FINE_PGA = tuple(round(0.1 * i, 1) for i in range(1, 181))
-"""PGA of the points of the rate curves, m/s^2."""
-
 
 def draw_slenderness(axis: Axes, cemetery: Cemetery, threshold: float | None = None) -> None:
     """Draw the histogram and the exceedance curve of H/B; stones above the threshold in colour."""

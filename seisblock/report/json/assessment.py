@@ -3,69 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
 from typing import Annotated, Any
 
-from msgspec import Meta, Struct, UnsetType
+from msgspec import Meta, UnsetType
 
 from seisblock.core.results import Response
-from seisblock.studies.assessment import Assessment, DirectionAssessment, ModelVerdict, assess_objects
+from seisblock.output.json.entries import entry_type
+from seisblock.output.json.schema import fill
+from seisblock.studies.assessment import Assessment, DirectionAssessment, assess_objects
 from seisblock.studies.azimuth_probability import AzimuthAverage
 
+CLASS = {"class_": "class"}
+"""Key of the class of an object."""
 
-class AssessmentEntry(Struct, frozen=True, kw_only=True, rename={"class_": "class"}):
-    """Assessment of one object.
-
-    Parameters
-    ----------
-    overturning_probability : float
-        Share of the samples of object and shaking that overturn; model error not included.
-    interval : two floats
-        Clopper-Pearson, 95 %.
-    runs : int
-        Samples with a result.
-    moved_probability : float
-        Share that overturn or end away from their place.
-    models : list of ModelVerdict
-    least_factor, greatest_factor : float or None
-        Range of the factors to overturning of the models.
-    predictable_until_s : float or None
-        Until when input changes of 2e-6 do not alter the run; null: to its end.
-    direction : str
-        Component or azimuth; of an object the one with the largest probability.
-    class_ : str
-        likely overturns, may overturn, moves or stays.
-    """
-
-    overturning_probability: float
-    interval: tuple[float, float]
-    runs: int
-    moved_probability: float
-    models: tuple[ModelVerdict, ...]
-    least_factor: float | None
-    greatest_factor: float | None
-    predictable_until_s: float | None
-    direction: str
-    class_: str
-
-
-class AzimuthAverageEntry(Struct, frozen=True, kw_only=True, rename={"class_": "class"}):
-    """Assessment of a body of unknown orientation.
-
-    Parameters
-    ----------
-    overturning_probability : float
-        Mean over all azimuths.
-    runs : int
-        Samples with a result, of all azimuths together.
-    class_ : str
-        likely overturns, may overturn, moves or stays.
-    """
-
-    overturning_probability: float
-    runs: int
-    class_: str
-
+AssessmentEntry: Any = entry_type("AssessmentEntry", Assessment, aliases=CLASS, bases=())
+AzimuthAverageEntry: Any = entry_type("AzimuthAverageEntry", AzimuthAverage, aliases=CLASS, bases=())
 
 ALL_AZIMUTHS_KEY = (
     Annotated[AzimuthAverageEntry, Meta(description="With --component all-azimuths and samples: unknown orientation.")] | UnsetType
@@ -96,9 +48,9 @@ VARIANT_KEYS = {
 """Keys of results that differ between variants."""
 
 
-def assessment_entry(assessment: Assessment) -> AssessmentEntry:
+def assessment_entry(assessment: Assessment) -> Any:
     """Return the entry of an assessment."""
-    return AssessmentEntry(**{name: getattr(assessment, name) for name in AssessmentEntry.__struct_fields__})
+    return fill(AssessmentEntry, assessment, **{"class": assessment.class_})
 
 
 def entry_keys(extra: Mapping[str, Any]) -> dict[str, Any]:
@@ -110,7 +62,7 @@ def entry_keys(extra: Mapping[str, Any]) -> dict[str, Any]:
         keys["assessment"] = assessment_entry(part.assessment)
     if "all_azimuths" in keys:
         average: AzimuthAverage = keys["all_azimuths"]
-        keys["all_azimuths"] = AzimuthAverageEntry(**asdict(average))
+        keys["all_azimuths"] = fill(AzimuthAverageEntry, average, **{"class": average.class_})
     return keys
 
 

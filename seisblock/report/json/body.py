@@ -11,7 +11,7 @@ from seisblock.bodies.scan.azimuths import ScanAzimuth
 from seisblock.bodies.scan.body import Pair, Triple, min_slenderness
 from seisblock.bodies.scan.qc import scan_qc_messages
 from seisblock.bodies.scan.scan import Scan
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.references import papers
 
 
@@ -104,21 +104,15 @@ def document(scan: Scan, directions: list[ScanAzimuth], *, step_deg: float, grav
     """Return the document of a scan."""
     body = scan.body
     x, y = body.support_polygon.T
-    result = ScanResult(
-        name=body.name,
+    result = fill(
+        ScanResult,
+        body,
+        scan,
         source=scan.source.replace("\\", "/").rsplit("/", 1)[-1],
-        sha256=scan.sha256,
         triangles_count=scan.triangles,
         touching_count=scan.touching,
         pieces_count=scan.pieces,
-        size_m=scan.size,
-        volume_m3=scan.volume,
-        mass_kg=body.mass,
-        height_m=body.height,
-        centre_m=body.centre,
-        inertia_kg_m2=body.inertia,
         tilt_deg=math.degrees(scan.tilt),
-        base_m=body.base,
         carrying_m=tuple((point[0], point[1]) for point in body.support_polygon.tolist()),
         base_area_m2=0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)),
         slenderness_rad=min_slenderness(body)[0],
@@ -126,16 +120,7 @@ def document(scan: Scan, directions: list[ScanAzimuth], *, step_deg: float, grav
         slenderness_interval_rad=(_finite_or_none(scan.slenderness_half_tolerance), _finite_or_none(scan.slenderness_double_tolerance)),
         directions=directions,
     )
-    parameters = BodyParameters(
-        density_kg_m3=scan.density,
-        tolerance_m=scan.tolerance,
-        inset_m=body.inset_m,
-        unit=scan.unit,
-        up=scan.up,
-        facing_deg=body.facing,
-        step_deg=step_deg,
-        gravity_m_s2=gravity,
-    )
+    parameters = fill(BodyParameters, body, scan, facing_deg=body.facing, step_deg=step_deg, gravity_m_s2=gravity)
     return BODY.document(parameters, [(None, result)], citations=papers("a scan's arms"), warnings=scan_qc_messages(scan))
 
 

@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 
 from seisblock.core.units import GAL
 from seisblock.output.json.entries import entry_type, to_entry
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.references.reference import Reference
 from seisblock.samples import Sample, sample_directory
 
@@ -83,13 +83,9 @@ def samples_document(samples: Sequence[Sample], copied_to: Path | None) -> Docum
     entries = (
         (
             None,
-            SampleResult(
-                name=sample.name,
-                kind=sample.kind,
-                description=sample.description,
-                origin=sample.origin,
-                licence=sample.licence,
-                sha256=sample.sha256,
+            fill(
+                SampleResult,
+                sample,
                 pga_m_s2={code: round(value * GAL, 9) for code, value in sample.pga_gal.items()},
                 path=str(sample_directory() / sample.name),
             ),

@@ -14,7 +14,7 @@ from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.output.json.bodies import BlockEntry, block_entry
 from seisblock.output.json.entries import entry_type, parameters_type, to_entry, to_parameters
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.references import find_citations, papers
 from seisblock.report.json.peaks import peak_schema
 from seisblock.studies.criteria_comparison import CriteriaComparison
@@ -71,16 +71,11 @@ def _respond_entry(card: CriteriaComparison) -> RespondEntry | None:
     if card.governing is None:
         return None
     outcome, rows = card.governing.response.outcome, unique_criteria(card.rows)
-    return RespondEntry(
-        mu=card.governing.response.options.mu,
-        friction_known=card.governing.friction_known,
-        outcome=outcome.outcome,
-        overturned=outcome.overturned,
-        overturned_towards=outcome.overturned_towards,
-        overturning_time_s=outcome.overturning_time_s,
-        max_rotation_ratio=outcome.max_rotation_ratio,
-        slip_path_m=outcome.slip_path_m,
-        final_displacement_m=outcome.final_displacement_m,
+    return fill(
+        RespondEntry,
+        outcome,
+        card.governing,
+        card.governing.response.options,
         criteria_agree=2 * sum(row.overturns == outcome.overturned for row in rows) > len(rows),
     )
 
@@ -127,15 +122,13 @@ def document(cards: Sequence[CriteriaComparison], options: RockOptions) -> Docum
     entries = (
         (
             card.record,
-            CriteriaResult(
-                component=card.component,
-                pga_m_s2=card.measures.pga_m_s2,
-                pgv_m_s=card.measures.pgv_m_s,
-                equivalent_frequency_hz=card.measures.equivalent_frequency_hz,
+            fill(
+                CriteriaResult,
+                card,
+                card.measures,
                 criteria=card.rows,
                 simulated=to_entry(SIMULATED, card.outcome, agreement=card.agreement),
                 respond=_respond_entry(card),
-                shaking=card.shaking,
             ),
         )
         for card in cards

@@ -10,7 +10,7 @@ import msgspec
 from msgspec import Struct
 
 from seisblock.measures import peak_acceleration
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.studies.fetch import FetchRequest, StationDownload
 
 
@@ -96,15 +96,12 @@ def document(request: FetchRequest, downloads: Sequence[StationDownload], direct
 def _result(download: StationDownload, directory: Path) -> FetchResult:
     sensor, record = download.sensor, download.record
     path = directory / f"{sensor.name}.mseed"
-    return FetchResult(
-        network=sensor.network,
-        station=sensor.station,
-        location=sensor.location,
+    return fill(
+        FetchResult,
+        download,
+        sensor,
         channels=list(sensor.channels),
-        latitude_deg=sensor.latitude_deg,
-        longitude_deg=sensor.longitude_deg,
         epicentral_distance_km=download.distance_km,
-        status=download.status,
         file=str(path) if path.exists() else None,
         pga_m_s2={} if record is None else {c.code: float(peak_acceleration(c.acceleration)[0]) for c in record.components},
         failure="" if download.failure is None else str(download.failure.message),

@@ -9,7 +9,7 @@ from msgspec import Meta, Struct
 
 from seisblock.bodies.block import Block
 from seisblock.output.json.bodies import BlockEntry, block_entry
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.references import command_papers
 from seisblock.studies.fit.cross_validation import HeldOutScores
 from seisblock.studies.fit.fit import BlockFit
@@ -156,7 +156,9 @@ def document(fit: BlockFit, outcomes: OutcomeTable, block: Block | None, table: 
     """Return the document of a fit."""
     names = (ALPHA, FREQUENCY, RESTITUTION, INSET, SCATTER)
     fixed = {key: fit.fixed.get(name) for key, name in zip(FixedEntry.__struct_fields__, names, strict=True)}
-    parameters = FitParameters(
+    parameters = fill(
+        FitParameters,
+        fit,
         table=Path(table).name,
         outcome=fit.experiment.kind,
         free=tuple(axis.name for axis in fit.axes),
@@ -165,19 +167,9 @@ def document(fit: BlockFit, outcomes: OutcomeTable, block: Block | None, table: 
         vertical=vertical,
         gravity_m_s2=gravity,
         confidence=fit.level,
-        runs=fit.runs,
-        seed=fit.seed,
     )
     results = [
-        FitResult(
-            parameter=marginal.name,
-            unit=UNITS.get(marginal.name, "1"),
-            median=marginal.median,
-            interval=marginal.interval,
-            before=marginal.before,
-            narrowed_ratio=marginal.narrowed,
-            identified=marginal.identified,
-        )
+        fill(FitResult, marginal, parameter=marginal.name, unit=UNITS.get(marginal.name, "1"), narrowed_ratio=marginal.narrowed)
         for marginal in fit.marginals
     ]
     return FIT.document(
@@ -201,12 +193,10 @@ def document(fit: BlockFit, outcomes: OutcomeTable, block: Block | None, table: 
 def _outcome_entries(fit: BlockFit) -> list[OutcomeEntry]:
     held_out = [None] * len(fit.probability) if fit.probability_held_out is None else fit.probability_held_out.tolist()
     return [
-        OutcomeEntry(
-            record=outcome.record,
+        fill(
+            OutcomeEntry,
+            outcome,
             component=outcome.motion.name,
-            scale=outcome.scale,
-            weight=outcome.weight,
-            happened=outcome.happened,
             probability=probability,
             held_out_probability=held_out_probability,
             pga_m_s2=pga,

@@ -8,7 +8,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.output.json.schema import Document, DocumentSchema, EarthquakeEntry, Result, earthquake_entry
+from seisblock.output.json.schema import Document, DocumentSchema, EarthquakeEntry, Result, earthquake_entry, fill
 from seisblock.references import papers
 from seisblock.report.json.assessment import AssessmentEntry, assessment_entry
 from seisblock.studies.map.earthquakes import ONE_DAY
@@ -211,20 +211,13 @@ def document(
 def survey_entry(answer: SurveyComparison) -> SurveyEntry:
     """Return the entry of a surveyed place."""
     survey, estimate = answer.surveyed, answer.estimate
-    return SurveyEntry(
-        place=survey.place,
-        latitude=survey.latitude,
-        longitude=survey.longitude,
+    return fill(
+        SurveyEntry,
+        survey,
+        estimate,
         stones_count=survey.stones,
         fallen_count=survey.fallen,
-        pga_m_s2=estimate.pga_m_s2,
-        pga_interval_m_s2=estimate.pga_interval_m_s2,
-        jma_intensity=estimate.jma_intensity,
-        jma_intensity_interval=estimate.jma_intensity_interval,
-        neighbours=tuple(
-            NeighbourEntry(station=neighbour.station, distance_km=neighbour.distance_km, jma_intensity=neighbour.jma_intensity)
-            for neighbour in answer.neighbours
-        ),
+        neighbours=tuple(fill(NeighbourEntry, neighbour) for neighbour in answer.neighbours),
         expected_jma_intensity=answer.expected_intensity,
         residual_jma_intensity=answer.residual,
     )

@@ -12,7 +12,7 @@ from seisblock.bodies.edge_wear import DEFAULT_WEAR, EdgeWear
 from seisblock.criteria.gravestones import GravestoneFit
 from seisblock.measures import Conventions
 from seisblock.output.json.entries import entry_type, to_entry
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.records import Motion, Record
 from seisblock.records._validation import vertical_acts
 from seisblock.studies.survey.assessment import AssessmentMethod, CemeteryRate
@@ -92,24 +92,22 @@ def parameters_of(
 ) -> RateParameters:
     """Return all parameters that determine the result."""
     rules = Conventions()
-    return RateParameters(
+    return fill(
+        RateParameters,
+        rules,
+        method,
         cemetery=stones.source,
         stones=stones.size,
         reinforced_stones=int(stones.reinforced.sum()),
         compared_with_reinforced_stones=None if dowelled is None else int(dowelled.reinforced.sum()),
-        criterion=method.criterion,
         fit=method.fits[0],
         fit_reinforced=method.fits[1],
         inset=None if method.criterion == "furukawa" else method.inset or DEFAULT_WEAR,
         runs=method.runs if method.criterion == "simulate" else None,
         seed=method.seed if method.criterion == "simulate" else None,
         stone_width_m=method.width,
-        gravity_m_s2=method.gravity,
-        confidence=method.confidence,
         vertical=vertical_acts(motions, method.vertical),
         equivalent_frequency=frequency_kind,
-        velocity_highpass_hz=rules.velocity_highpass_hz,
-        velocity_baseline=rules.velocity_baseline,
     )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.paper import Answer, Inputs, Item, Paper
 from seisblock.records import Record
 from seisblock.validation.case import Case
@@ -105,10 +105,11 @@ def _entry(paper: Paper, item: Item, answer: Answer | None, *, own: bool) -> Ite
     cases = [] if own else paper.cases(item)
     rows = [] if answer is None else [dict(zip((c.key for c in answer.columns), row, strict=True)) for row in answer.rows]
     differing = [case for case in cases if case.status == "differs"]
-    return ItemEntry(
+    return fill(
+        ItemEntry,
+        item,
         paper=paper.key,
         item=item.name,
-        title=item.title,
         verdict=verdict(cases),
         case_count=len(cases),
         source="" if answer is None else answer.source,
@@ -119,10 +120,9 @@ def _entry(paper: Paper, item: Item, answer: Answer | None, *, own: bool) -> Ite
 
 def difference(case: Case) -> DifferenceEntry:
     """Return the entry of a differing case; values that take long are those held by the case."""
-    return DifferenceEntry(
-        key=case.key,
-        quantity=case.quantity,
-        unit=case.unit,
+    return fill(
+        DifferenceEntry,
+        case,
         expected=None if callable(case.expected) else case.expected,
         computed=None if case.today is None else case.today[0],
         cause=case.note,

@@ -13,7 +13,7 @@ from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.core.typing import FloatArray
 from seisblock.models.rock.options import RockOptions
 from seisblock.output.json.entries import parameters_type, to_parameters
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.records import Motion
 from seisblock.references import papers
 from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, ModeMap
@@ -181,14 +181,11 @@ def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, optio
     entries = (
         (
             motion.record,
-            RockingResult(
+            fill(
+                RockingResult,
+                spectrum,
                 component=motion.name,
-                size_m=spectrum.size_m.tolist(),
-                frequency_parameter_rad_s=spectrum.frequency_parameter_rad_s.tolist(),
-                slenderness_rad=spectrum.slenderness_rad.tolist(),
                 height_over_width=(1 / np.tan(spectrum.slenderness_rad)).tolist(),
-                max_rotation_ratio=spectrum.max_rotation_ratio.tolist(),
-                overturned=spectrum.overturned.tolist(),
                 azimuths_deg=_to_list(spectrum.azimuths_deg),
                 overturning_rate=_to_list(spectrum.overturning_rate),
                 worst_azimuth_deg=_to_list(spectrum.worst_azimuth_deg),
@@ -228,15 +225,11 @@ def modes_document(
     entries = (
         (
             motion.record,
-            ModesResult(
+            fill(
+                ModesResult,
+                mode_map,
                 component=motion.name,
-                mu=mode_map.mu.tolist(),
-                size_m=mode_map.size_m.tolist(),
-                b_over_h=mode_map.b_over_h.tolist(),
                 mode=[[MODES_BY_SEVERITY[index] for index in row] for row in mode_map.governing],
-                max_rotation_ratio=mode_map.max_rotation_ratio.tolist(),
-                slip_path_m=mode_map.slip_path_m.tolist(),
-                final_displacement_m=mode_map.final_displacement_m.tolist(),
                 initiation=InitiationEntry(
                     acceleration_ratio=mode_map.loading if math.isfinite(mode_map.loading) else None,
                     time_s=mode_map.loading_time_s,

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.validation.case import CaseResult, count_verdicts, count_verdicts_by_kind, sort_by_verdict
 
 
@@ -75,21 +75,12 @@ def document(results: Sequence[CaseResult], *, quick: bool) -> Document:
     entries = (
         (
             None,
-            CaseEntry(
-                key=result.case.key,
-                paper=result.case.paper,
+            fill(
+                CaseEntry,
+                result,
+                result.case,
                 where=result.case.place,
-                quantity=result.case.quantity,
-                unit=result.case.unit,
-                expected=result.expected,
-                computed=result.computed,
-                error=result.error,
-                tolerance=result.case.tolerance,
-                status=result.case.status,
-                verdict=result.verdict,
-                kind=result.case.kind,
                 today=None if result.case.today is None else result.case.today[0],
-                note=result.case.note,
             ),
         )
         for result in sort_by_verdict(results)

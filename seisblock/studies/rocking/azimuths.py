@@ -13,7 +13,6 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import to_block_array
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.core._display import DisplayMixin
-from seisblock.core.typing import Progress
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
 from seisblock.models.rock.solve import solve_rock
@@ -67,7 +66,6 @@ def rock_directions(
     options: RockOptions = RockOptions(),
     *,
     step_deg: float = STEP_DEG,
-    progress: Progress | None = None,
 ) -> list[RockAzimuth]:
     """Return the rocking of a block, or of a scan, in every direction of a record, the worst direction first.
 
@@ -82,8 +80,6 @@ def rock_directions(
     options : RockOptions
     step_deg : float
         Step between directions, degrees.
-    progress : callable
-        Called with the number of finished runs and the total.
 
     Returns
     -------
@@ -100,7 +96,7 @@ def rock_directions(
     """
     azimuth_sweep = make_azimuth_sweep(body, record, step_deg=step_deg, vertical=options.vertical)
     params = rock_batch_params(to_block_array(azimuth_sweep.blocks), azimuth_sweep.motion, options)
-    verdicts = parallel_verdicts(params, azimuth_sweep.motion, azimuth_sweep.gains, progress=progress)
+    verdicts = parallel_verdicts(params, azimuth_sweep.motion, azimuth_sweep.gains)
     directions = []
     for row, (azimuth, block) in enumerate(zip(azimuth_sweep.azimuths.tolist(), azimuth_sweep.blocks, strict=True)):
         fallen, time = bool(verdicts.overturned[row]), float(verdicts.overturning_time_s[row])
