@@ -57,18 +57,22 @@ class LazyKernel:
     @property
     def compiled(self) -> Any:
         """Numba dispatcher for calls from Python, compiled on first access, by one thread."""
-        with _lock():
-            if self._compiled is None:
-                self._compiled = cache.load_or_compile(functools.partial(self._compile, no_cfunc_wrapper=True), self._function)
-            return self._compiled
+        if self._compiled is None:
+            with _lock():
+                self._compiled = self._compiled or cache.load_or_compile(
+                    functools.partial(self._compile, no_cfunc_wrapper=True), self._function
+                )
+        return self._compiled
 
     @property
     def exported(self) -> Any:
         """Numba dispatcher for calls by pointer only, without the code that converts arguments from Python."""
-        with _lock():
-            if self._exported is None:
-                self._exported = cache.load_or_compile(functools.partial(self._compile, no_cpython_wrapper=True), self._function, "pointer")
-            return self._exported
+        if self._exported is None:
+            with _lock():
+                self._exported = self._exported or cache.load_or_compile(
+                    functools.partial(self._compile, no_cpython_wrapper=True), self._function, "pointer"
+                )
+        return self._exported
 
     @property
     def _numba_type_(self) -> Any:

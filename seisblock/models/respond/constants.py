@@ -18,6 +18,9 @@ _t = types()
 ) = range(11)  # fmt: skip
 """Modes. SLIDE_ROCK_*: rocking about a sliding corner; START: initial state, before the first mode is selected."""
 
+SLIP_FORWARD = SLIDE_PLUS, SLIDE_ROCK_RIGHT_PLUS, SLIDE_ROCK_LEFT_PLUS
+"""Modes with a slip to +x."""
+
 TENON_OFFSET = 11
 """Offset of a mode while the feet are engaged in tenons."""
 
@@ -91,7 +94,7 @@ def is_right(kind):
 @kernel(_t.float64(_t.int64), inline=True)
 def slip_sign(kind):
     """Return the sign of the slip of a sliding or slide-rocking mode."""
-    return 1.0 if kind in (SLIDE_PLUS, SLIDE_ROCK_RIGHT_PLUS, SLIDE_ROCK_LEFT_PLUS) else -1.0
+    return 1.0 if kind in SLIP_FORWARD else -1.0
 
 
 @kernel(_t.float64(_t.boolean, VECTOR), inline=True)

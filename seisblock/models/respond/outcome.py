@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from typing import TypedDict
 
 import numpy as np
@@ -108,32 +109,31 @@ class RespondOutcome(DisplayMixin):
     tenon_left_s: float | None
 
 
-def mode_change(time_s: float, mode: int) -> ModeChange:
-    """Return the entry of a mode of the model."""
+@cache
+def _description(mode: int) -> tuple[str, str | None, str | None]:
+    """Return mode, corner and slip direction of a mode of the model."""
     # with the feet in their tenons the codes are shifted; a terminal mode counts as rest
     kind = mode % constants.TENON_OFFSET if mode >= 0 else constants.REST
     is_rotating = (
         kind in (constants.ROCK_RIGHT, constants.ROCK_LEFT) or constants.SLIDE_ROCK_RIGHT_PLUS <= kind <= constants.SLIDE_ROCK_LEFT_MINUS
     )
     is_sliding = constants.SLIDE_PLUS <= kind <= constants.SLIDE_ROCK_LEFT_MINUS
-    return {
-        "time_s": time_s,
-        "mode": constants.MODES[mode],
-        "corner": ("right" if constants.is_right(kind) else "left") if is_rotating else None,
-        "slip": ("+" if constants.slip_sign(kind) > 0.0 else "-") if is_sliding else None,
-    }
+    corner = ("right" if kind % 2 == 1 else "left") if is_rotating else None
+    return constants.MODES[mode], corner, ("+" if kind in constants.SLIP_FORWARD else "-") if is_sliding else None
 
 
 def mode_changes(run: Run, start_s: float) -> list[ModeChange]:
     """Return the mode changes; an impact without a change of mode, corner or slip direction is none."""
     result: list[ModeChange] = []
+    previous: tuple[str, str | None, str | None] | None = None
     for time, target in zip(run.events.time.tolist(), run.events.target.tolist(), strict=True):
         # an abandoned run has no further mode of the body
         if target == constants.GAVE_UP:
             continue
-        entry = mode_change(start_s + time, target)
-        if not result or any(result[-1][key] != entry[key] for key in ("mode", "corner", "slip")):
-            result.append(entry)
+        current = _description(target)
+        if current != previous:
+            mode, corner, slip = previous = current
+            result.append({"time_s": start_s + time, "mode": mode, "corner": corner, "slip": slip})
     return result
 
 
