@@ -244,7 +244,7 @@ def object_result(tab: Tab, job: Job) -> str:
 
 def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
     from seisblock.output.text.tables import format_share_interval
-    from seisblock.report.text.assessment import headline
+    from seisblock.report.text.assessment import headline, object_headline
 
     rows = [row["assessment"] for row in document["results"] if "assessment" in row]
     if not rows:
@@ -256,12 +256,13 @@ def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
             "rows": [],
             "models": [],
         }
-    worst = max(rows, key=lambda row: row["overturning_probability"])
+    # several horizontals: the object falls under either of them
+    shown = document.get("object", rows[0])
     return {
-        "probability": worst["overturning_probability"],
-        "text": format_percent(worst["overturning_probability"], "g"),
-        "verdict": headline(_assessment(worst)),
-        "level": LEVELS[worst["class"]],
+        "probability": shown["overturning_probability"],
+        "text": format_percent(shown["overturning_probability"], "g"),
+        "verdict": (object_headline if "object" in document else headline)(_assessment(shown)),
+        "level": LEVELS[shown["class"]],
         "rows": [
             (
                 row["direction"],
@@ -278,7 +279,7 @@ def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
                 gettext("overturns") if model["overturns"] else gettext("stands"),
                 "" if model["factor_to_overturn"] is None else f"{model['factor_to_overturn']:.2f}",
             )
-            for model in worst["models"]
+            for model in shown["models"]
         ],
     }
 
@@ -341,8 +342,7 @@ def python_lines(arguments: tuple[str, ...]) -> str:
         "",
         f"record = seisblock.records.Preparation().apply(seisblock.read({source!r}{reading}))  # without the offset of an instrument",
         *body,
-        f"results = [seisblock.assess(body, record, components=[c.code], {keywords}) for c in record.horizontals]",
-        "print(max(result.overturning_probability for result in results))",
+        f"print(seisblock.assess(body, record, {keywords}).overturning_probability)",
     ]
     return "\n".join(lines)
 

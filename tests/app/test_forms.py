@@ -95,8 +95,7 @@ def test_python_lines_print_the_probability_of_the_command(capsys, line):
     exec(python_lines(("respond", *line)), {})
     printed = float(capsys.readouterr().out)
     result = CliRunner().invoke(main, ["respond", *line, "--json", "--quiet"])
-    rows = json.loads(result.stdout)["results"]
-    assert printed == max(row["assessment"]["overturning_probability"] for row in rows) > 0.0
+    assert printed == json.loads(result.stdout)["object"]["overturning_probability"] > 0.0
 
 
 def test_record_options_are_those_that_were_filled_in():

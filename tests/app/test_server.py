@@ -142,12 +142,14 @@ def test_record_summary_escapes_names_and_leaves_out_lines_on_output_files(tmp_p
     assert "wrote" not in text and "sample count" in text
 
 
-def test_object_result_shows_the_greatest_probability_of_the_directions(tmp_path):
+def test_object_result_shows_the_probability_of_the_object(tmp_path):
+    """The object falls under either horizontal: more often than under the worse one alone, which was shown."""
     base = {"interval": [0.1, 0.2], "runs": 200, "moved_probability": 0.5, "models": [], "least_factor": None, "greatest_factor": None,
             "predictable_until_s": None, "class": "may overturn"}  # fmt: skip
     rows = [{"assessment": {**base, "overturning_probability": p, "direction": d}} for p, d in ((0.145, "NS"), (0.155, "EW"))]
-    text = views.object_result(FakeTab, finished_job(tmp_path, {"results": rows}, line=("respond", "a.csv", "--block", "statue")))
-    assert 'data-value="0.155">15.5' in text and "EW: may overturn" in text
+    document = {"results": rows, "object": {**base, "overturning_probability": 0.175, "direction": "EW"}}
+    text = views.object_result(FakeTab, finished_job(tmp_path, document, line=("respond", "a.csv", "--block", "statue")))
+    assert 'data-value="0.175">17.5' in text and "worst direction EW" in text
     assert "seisblock respond a.csv --block statue" in text
 
 
