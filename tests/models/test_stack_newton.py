@@ -7,7 +7,9 @@ import pytest
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
+from seisblock.models.stack import newton
 from seisblock.models.stack import solve as solve_module
+from seisblock.models.stack.arrays import pile_arrays
 from seisblock.models.stack.constraint_row import (
     ARM_A,
     ARM_B,
@@ -20,7 +22,7 @@ from seisblock.models.stack.constraint_row import (
     VELOCITY_COLUMNS,
     set_delassus_block,
 )
-from seisblock.models.stack.newton import WORK_COLUMNS, solve_newton
+from seisblock.models.stack.newton import GRADIENT, TRIAL_SLIP, WORK_COLUMNS, solve_newton
 from seisblock.models.stack.pgs import solve_pgs
 from seisblock.models.stack.recorder import SOLVED, UNCONVERGED
 from seisblock.models.stack.solve import solve_stack
@@ -100,6 +102,55 @@ def test_solve_newton_obeys_signorini_and_coulomb(count, mu):
         np.testing.assert_allclose(velocities[:count, :6] - start[:count, :6], change, atol=1e-12)
     assert slides > 10 * count
     assert opens > 0
+
+
+def test_hessian_is_derivative_of_gradient():
+    """At random velocities, with held friction limits; the lowest stone lies on sleeping ones, whose centres differ."""
+    count, rng = 4, np.random.default_rng(3)
+    ids, rows, masses, inverses, velocities = tower(rng, count, 0.3)
+    rows[:4, ARM_B : ARM_B + 3] += rng.normal(0.0, 1.0, (4, 3))
+    rows[:, IMPULSE + 2] = rng.uniform(0.5, 2.0, len(rows))
+    blocks, work = np.zeros((count + 1, count + 1, 36)), np.zeros((count + 1, WORK_COLUMNS))
+    newton._begin(len(rows), ids, rows, count, masses, inverses, velocities, work)
+    newton._errors(len(rows), ids, rows, count, masses, inverses, velocities, work)
+
+    def gradient(change):
+        moved = velocities.copy()
+        moved[:count, :6] += change.reshape(count, 6)
+        for (a, b, *_), row in zip(ids, rows, strict=True):
+            row[TRIAL_SLIP : TRIAL_SLIP + 3] = point_velocity(a, row[ARM_A : ARM_A + 3], moved) - point_velocity(
+                b, row[ARM_B : ARM_B + 3], moved
+            )
+        newton._assemble(len(rows), ids, rows, count, masses, moved, blocks, work)
+        return work[:count, GRADIENT : GRADIENT + 6].ravel().copy()
+
+    step = 1e-7
+    expected = np.array([(gradient(step * axis) - gradient(-step * axis)) / (2.0 * step) for axis in np.eye(6 * count)])
+    gradient(np.zeros(6 * count))
+    hessian = np.triu(blocks[:count, :count].reshape(count, count, 6, 6).transpose(0, 2, 1, 3).reshape(6 * count, 6 * count))
+    np.testing.assert_allclose(hessian + np.triu(hessian, 1).T, expected, atol=1e-6 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("by_course", [True, False])
+def test_touching_stones_of_a_wall_have_close_indices(by_course):
+    """Five courses of ten to six stones, in any order: at most five bodies lie between two that touch, and few blocks are factorised."""
+    stones = [
+        PileStone(
+            f"s{row}_{i}",
+            0.5,
+            0.3,
+            0.25,
+            on="ground" if row == 0 else f"s{row - 1}_{i}",
+            offset=(0.501 * i, 0.0) if row == 0 else (0.2505, 0.0),
+        )
+        for row, i in (
+            [(r, i) for r in range(5) for i in range(10 - r)] if by_course else [(r, i) for i in range(10) for r in range(5) if i < 10 - r]
+        )
+    ]
+    pile = pile_arrays(Pile("wall", tuple(stones)), None, 2)
+    gaps = [abs(int(pile.owner[c]) - int(pile.owner[p])) for c, p in pile.joints[:, :2] if max(c, p) < len(stones)]
+    assert len(gaps) == 60
+    assert max(gaps) <= 5
 
 
 @pytest.mark.parametrize("count", [2, 5])

@@ -16,8 +16,10 @@ from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond.solve import solve_respond
 from seisblock.models.stack.arrays import PLASTIC_RESTITUTION, pile_arrays
+from seisblock.models.stack.buffers import STEPS_REMAINING
 from seisblock.models.stack.joint_geometry import compute_effective_base, effective_base
 from seisblock.models.stack.outcome import Track, rotate_vectors, stack_outcome, stone_channels
+from seisblock.models.stack.rigid_run import run_rigid
 from seisblock.models.stack.solve import solve_stack
 from seisblock.models.stack.step import POINT
 from seisblock.records import Motion
@@ -187,8 +189,25 @@ def test_slicing_a_rigid_run_changes_no_bit(monkeypatch):
     """Slices of a few steps end with the same state and books as one slice."""
     motion, body = sine_cycle(6.0, 2.0), load_pile("wagata")
     full = solve_stack(body, motion)
-    monkeypatch.setattr("seisblock.models.stack.simulation.POINTS_PER_SLICE", 1000)
+    monkeypatch.setattr("seisblock.models.stack.simulation.SLICE_TIME", 1e-4)
     assert solve_stack(body, motion).outcome == full.outcome
+
+
+def test_slices_of_slow_steps_are_short(monkeypatch):
+    """A slice lasts a tenth of a second whatever a step costs, so that an interrupt and the progress do not wait for a large pile."""
+    clock, lengths = [0.0], []
+
+    def run(*arguments):
+        before = int(arguments[-2].counters[STEPS_REMAINING])
+        status = run_rigid(*arguments)
+        lengths.append(before - int(arguments[-2].counters[STEPS_REMAINING]))
+        clock[0] += lengths[-1] / 64.0
+        return status
+
+    monkeypatch.setattr("seisblock.models.stack.simulation.run_rigid", run)
+    monkeypatch.setattr("seisblock.models.stack.simulation.perf_counter", lambda: clock[0])
+    solve_stack(load_pile("wagata"), sine_cycle(6.0, 2.0))
+    assert set(lengths[1:-1]) == {6}
 
 
 @pytest.mark.parametrize(

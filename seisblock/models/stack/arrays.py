@@ -24,6 +24,7 @@ from seisblock.models.stack.newton import WORK_COLUMNS
 from seisblock.models.stack.sleeping import SUPPORT_COLUMNS
 from seisblock.models.stack.spring_contact import FRICTION, KINETIC, SLOT
 from seisblock.models.stack.step import BOX_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH_ROWS, SIGMA
+from seisblock.records.motion import UP
 
 GROUND_HALF, GROUND_DEPTH = 1e5, 50.0
 """Half width and half depth of the box that represents the ground, m: wide enough for a drum that rolls far."""
@@ -138,8 +139,10 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, restitutio
     checks.integer("the number of points along each side of a joint", points, minimum=2)
     check_limit(N_("points along each side of a joint"), points, MAX_JOINT_POINTS)
     _check_bases(body, contact, points)
-    members = tuple(body.bodies())
     centres = np.array(body.centres())
+    # along the longest extent: touching bodies then have close indices, and the factor of the Newton solver is narrow
+    axis = int(np.ptp(centres, axis=0).argmax())
+    members = tuple(sorted(body.bodies(), key=lambda group: centres[list(group), axis].mean()) if axis != UP else body.bodies())
     bodies, inertias, owner = _bodies(body, members, centres)
     # stones joined by a dowel share a body, and fixed stones belong to the ground: their joints carry no contacts
     joints = [joint for joint in body.joints() if joint.lower < 0 or owner[joint.upper] != owner[joint.lower]]

@@ -206,33 +206,75 @@ def _errors(n, contact_ids, rows, ground, inertias, inverses, velocities, work):
     return change, penalty_error
 
 
-@kernel(_t.void(VECTOR, _t.int64, VECTOR, _t.int64, VECTOR, _t.float64, VECTOR), inline=True)
-def _add_stiffness(first, first_arm, second, second_arm, stiffness, sign, block):
-    """Add sign G^T A H to a block, for the point's velocities G = [1, -r x] of one body and H of another, and a symmetric A."""
-    x, y, z = first[first_arm], first[first_arm + 1], first[first_arm + 2]
-    r, s, t = second[second_arm], second[second_arm + 1], second[second_arm + 2]
-    for i in range(3):
-        a0, a1, a2 = sign * stiffness[3 * i], sign * stiffness[3 * i + 1], sign * stiffness[3 * i + 2]
-        block[6 * i] += a0
-        block[6 * i + 1] += a1
-        block[6 * i + 2] += a2
-        # rows of -A (r x), columns of the second body's spin
-        block[6 * i + 3] += a2 * s - a1 * t
-        block[6 * i + 4] += a0 * t - a2 * r
-        block[6 * i + 5] += a1 * r - a0 * s
-    for j in range(6):
-        # rows of the first body's spin: r x (A H), from the columns of A H
-        c0, c1, c2 = 0.0, 0.0, 0.0
-        if j < 3:
-            c0, c1, c2 = sign * stiffness[j], sign * stiffness[3 + j], sign * stiffness[6 + j]
-        else:
-            q0, q1, q2 = (0.0, -t, s) if j == 3 else (t, 0.0, -r) if j == 4 else (-s, r, 0.0)
-            c0 = sign * (stiffness[0] * q0 + stiffness[1] * q1 + stiffness[2] * q2)
-            c1 = sign * (stiffness[3] * q0 + stiffness[4] * q1 + stiffness[5] * q2)
-            c2 = sign * (stiffness[6] * q0 + stiffness[7] * q1 + stiffness[8] * q2)
-        block[18 + j] += y * c2 - z * c1
-        block[24 + j] += z * c0 - x * c2
-        block[30 + j] += x * c1 - y * c0
+@kernel(_t.void(VECTOR, _t.int64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def _add_stiffness(row, arm, a00, a01, a02, a11, a12, a22, joint):
+    """Add G^T A G to the upper triangle of a joint's block, for the velocity G = [1, -r x] of a point of one body, and A = A^T."""
+    x, y, z = row[arm], row[arm + 1], row[arm + 2]
+    # -A (r x), row by row
+    b00, b01, b02 = a02 * y - a01 * z, a00 * z - a02 * x, a01 * x - a00 * y
+    b10, b11, b12 = a12 * y - a11 * z, a01 * z - a12 * x, a11 * x - a01 * y
+    b20, b21, b22 = a22 * y - a12 * z, a02 * z - a22 * x, a12 * x - a02 * y
+    joint[0] += a00
+    joint[1] += a01
+    joint[2] += a02
+    joint[3] += b00
+    joint[4] += b01
+    joint[5] += b02
+    joint[7] += a11
+    joint[8] += a12
+    joint[9] += b10
+    joint[10] += b11
+    joint[11] += b12
+    joint[14] += a22
+    joint[15] += b20
+    joint[16] += b21
+    joint[17] += b22
+    # r x of these columns
+    joint[21] += y * b20 - z * b10
+    joint[22] += y * b21 - z * b11
+    joint[23] += y * b22 - z * b12
+    joint[28] += z * b01 - x * b21
+    joint[29] += z * b02 - x * b22
+    joint[35] += x * b12 - y * b02
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.int64, VECTOR, VECTOR, BLOCK))
+def _add_joint(a, b, ground, row, joint, blocks):
+    """Add the block K of the contacts of two bodies to the Hessian, and clear it; K belongs to the second body, to the first on the ground.
+
+    The arms of both bodies differ by the distance d of their centres, so that [1, -r_a x] = [1, -r_b x] T with T = [1, -d x; 0, 1].
+    """
+    for i in range(1, 6):
+        for j in range(i):
+            joint[6 * i + j] = joint[6 * j + i]
+    awake = a if b == ground else b
+    for k in range(36):
+        blocks[awake, awake, k] += joint[k]
+    if a != ground and b != ground:
+        x, y, z = row[ARM_A] - row[ARM_B], row[ARM_A + 1] - row[ARM_B + 1], row[ARM_A + 2] - row[ARM_B + 2]
+        # K T
+        for i in range(6):
+            k0, k1, k2 = joint[6 * i], joint[6 * i + 1], joint[6 * i + 2]
+            joint[6 * i + 3] += k2 * y - k1 * z
+            joint[6 * i + 4] += k0 * z - k2 * x
+            joint[6 * i + 5] += k1 * x - k0 * y
+        for i in range(6):
+            for j in range(6):
+                # (K T)^T = T^T K
+                if b < a:
+                    blocks[b, a, 6 * i + j] -= joint[6 * i + j]
+                else:
+                    blocks[a, b, 6 * j + i] -= joint[6 * i + j]
+        # T^T (K T)
+        for j in range(6):
+            k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
+            joint[18 + j] += y * k2 - z * k1
+            joint[24 + j] += z * k0 - x * k2
+            joint[30 + j] += x * k1 - y * k0
+        for k in range(36):
+            blocks[a, a, k] += joint[k]
+    for k in range(36):
+        joint[k] = 0.0
 
 
 @kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, BLOCK, MATRIX))
@@ -247,10 +289,15 @@ def _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work):
             blocks[i, i, 7 * k] = inertias[i, 0]
             for m in range(3):
                 blocks[i, i, 6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
-    # the block of the ground is not needed: it serves as scratch
-    stiffness = blocks[ground, ground]
+    # the block of the ground is not needed: it collects the contacts of two bodies
+    joint, first = blocks[ground, ground], 0
+    for k in range(36):
+        joint[k] = 0.0
     for i in range(n):
         row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
+        if a != contact_ids[first, 0] or b != contact_ids[first, 1]:
+            _add_joint(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
+            first = i
         u0, u1, u2 = row[TRIAL_SLIP], row[TRIAL_SLIP + 1], row[TRIAL_SLIP + 2]
         p0, p1, p2, normal, ratio = _penalty_impulse(row, u0, u1, u2, True)
         _subtract_impulse(a, b, ground, row, p0, p1, p2, work)
@@ -273,34 +320,40 @@ def _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work):
             d0, d1, d2 = d0 / size, d1 / size, d2 / size
         # written as across (1 - d d) + (along - across) n n
         along -= across
-        stiffness[0] = across + along * n0 * n0 - across * d0 * d0
-        stiffness[1] = along * n0 * n1 - across * d0 * d1
-        stiffness[2] = along * n0 * n2 - across * d0 * d2
-        stiffness[3] = stiffness[1]
-        stiffness[4] = across + along * n1 * n1 - across * d1 * d1
-        stiffness[5] = along * n1 * n2 - across * d1 * d2
-        stiffness[6] = stiffness[2]
-        stiffness[7] = stiffness[5]
-        stiffness[8] = across + along * n2 * n2 - across * d2 * d2
-        if a != ground:
-            _add_stiffness(row, ARM_A, row, ARM_A, stiffness, 1.0, blocks[a, a])
-        if b != ground:
-            _add_stiffness(row, ARM_B, row, ARM_B, stiffness, 1.0, blocks[b, b])
-        if a != ground and b != ground:
-            if a < b:
-                _add_stiffness(row, ARM_A, row, ARM_B, stiffness, -1.0, blocks[a, b])
-            else:
-                _add_stiffness(row, ARM_B, row, ARM_A, stiffness, -1.0, blocks[b, a])
+        _add_stiffness(
+            row,
+            ARM_A if b == ground else ARM_B,
+            across + along * n0 * n0 - across * d0 * d0,
+            along * n0 * n1 - across * d0 * d1,
+            along * n0 * n2 - across * d0 * d2,
+            across + along * n1 * n1 - across * d1 * d1,
+            along * n1 * n2 - across * d1 * d2,
+            across + along * n2 * n2 - across * d2 * d2,
+            joint,
+        )
+    _add_joint(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
 
 
 @kernel(_t.void(VECTOR, VECTOR, VECTOR), inline=True)
 def _subtract_product(left, right, block):
     """Subtract U^T V of two blocks from a third."""
-    for k in range(6):
-        for i in range(6):
-            x = left[6 * k + i]
-            for j in range(6):
-                block[6 * i + j] -= x * right[6 * k + j]
+    for i in range(0, 36, 6):
+        # a row at a time stays in registers
+        s0, s1, s2, s3, s4, s5 = block[i], block[i + 1], block[i + 2], block[i + 3], block[i + 4], block[i + 5]
+        for k in range(0, 36, 6):
+            x = left[k + i // 6]
+            s0 -= x * right[k]
+            s1 -= x * right[k + 1]
+            s2 -= x * right[k + 2]
+            s3 -= x * right[k + 3]
+            s4 -= x * right[k + 4]
+            s5 -= x * right[k + 5]
+        block[i] = s0
+        block[i + 1] = s1
+        block[i + 2] = s2
+        block[i + 3] = s3
+        block[i + 4] = s4
+        block[i + 5] = s5
 
 
 @kernel(_t.boolean(_t.int64, BLOCK, MATRIX))

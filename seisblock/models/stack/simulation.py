@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from time import perf_counter
 
 import numpy as np
 
@@ -54,8 +55,8 @@ END_ROWS = 2
 CURVE_COLUMNS = 17
 """Numbers per stone in a row of the time histories and of their intermediate arrays."""
 
-POINTS_PER_SLICE = 2_500_000
-"""Contact points per slice of compiled code, about 0.05 s; Python may be interrupted between slices."""
+FIRST_SLICE_STEPS, SLICE_TIME = 100, 0.1
+"""Steps of the first slice of compiled code, and duration, s, of the later ones; Python may be interrupted between slices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,18 +167,19 @@ class Simulation:
         progress: Callable[[int, int], None] | None,
     ) -> Status:
         """Integrate to the end, in slices between which Python may be interrupted."""
-        pile, layout = self.pile, self.pile.layout
-        # large piles take fewer steps per slice, so that a slice always lasts about as long
-        steps_per_slice = max(1, POINTS_PER_SLICE // (pile.grids.shape[0] * pile.points**2 + pile.pairs.shape[0]))
-        status, run = Status.PAUSED, run_rigid if self.rigid else run_springs
+        layout = self.pile.layout
+        status, run, steps = Status.PAUSED, run_rigid if self.rigid else run_springs, FIRST_SLICE_STEPS
         for first, shaking in self._motion_chunks():
             state.counters[FIRST_SAMPLE] = first
             last = first + shaking.shape[1] - 1
             # the last chunk has no end of its own: the run stops when every stone is still
             while status == Status.PAUSED and (state.counters[SAMPLE] < last or last == settings.last):
                 check_cancelled()
-                state.counters[STEPS_REMAINING] = steps_per_slice
+                state.counters[STEPS_REMAINING] = steps
+                start = perf_counter()
                 status = Status(run(shaking, settings, layout, memory, state, output))
+                # a step of a pile that falls takes a hundred times as long as one of a pile that stands
+                steps = max(1, min(2 * steps, int(steps * SLICE_TIME / (perf_counter() - start))))
                 if progress is not None and status == Status.PAUSED:
                     progress(min(int(state.counters[SAMPLE]), settings.record_end), settings.record_end)
             if status != Status.PAUSED:
