@@ -74,7 +74,16 @@ def _to_part(trace: Any, options: WaveformOptions) -> Record:
     if physical is None and attached is not None and not options.inventory.is_requested and options.units is None:
         # the response attached by a FDSN client has no azimuth and dip
         options = replace(options, inventory=Inventories(inventory=_attached_inventory(trace), is_requested=True))
-    return trace_to_record("ObsPy stream", trace, "STREAM", options, physical=physical)
+    part = trace_to_record("ObsPy stream", trace, "STREAM", options, physical=physical)
+    if physical is not None and "remove_sensitivity" in _processing(trace):
+        # a division leaves the offset of the instrument
+        part = replace(part, metadata={**part.metadata, "carries_offset": True})
+    return part
+
+
+def _processing(trace: Any) -> str:
+    """Return what ObsPy did to a trace."""
+    return " ".join(trace.stats.get("processing", []))
 
 
 def _processed_quantity(trace: Any) -> Quantity | None:
@@ -82,7 +91,7 @@ def _processed_quantity(trace: Any) -> Quantity | None:
 
     Floating-point samples without a response are accelerations, m/s^2, of an accelerometer, as ObsPy returns them after removal.
     """
-    processing = " ".join(trace.stats.get("processing", []))
+    processing = _processing(trace)
     letter = instrument_letter(trace.stats.channel)
     by_code = VELOCITY if letter in SEISMOMETERS and letter else ACCELERATION
     match = _OUTPUT.search(processing) if "remove_response" in processing else None

@@ -348,6 +348,10 @@ def test_from_obspy_requires_a_response_for_counts():
     attached.remove_sensitivity()
     np.testing.assert_allclose(Record.from_obspy(attached).component("EW").acceleration, reference, rtol=1e-14)
     np.testing.assert_allclose(read(attached[1]).component("EW").acceleration, reference, rtol=1e-14)
+    # the offset of the instrument is treated as after a response from a file
+    for item in attached:
+        item.data = item.data + 0.5
+    assert Record.from_obspy(attached).carries_offset and not Record.from_obspy(attached).doubts
 
 
 def test_from_obspy_reads_the_processing_of_obspy():
