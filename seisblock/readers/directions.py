@@ -82,6 +82,7 @@ def strip_component_words(text: str) -> str:
 _SIGNED = re.compile(
     r"^(?P<before>[-+−＋])?\s*(?P<name>[^()\[\]（）]*?)\s*(?:[(\[（]\s*(?P<inner>[^()\[\]（）]*?)\s*[)\]）])?\s*(?P<after>[-+−＋])?$"
 )
+_SENSE_WORD = re.compile(r"^(.+?)[\s_-]+((?:up|down)(?:ward)?|dn|dwn)(?:[\s_-]+(?:positive|pos))?$", re.IGNORECASE)
 _POSITIVE_WORDS = re.compile(r"\b(?:positive|pos|plus|is)\b|[+＋]|[がを]?正|向き|向", re.IGNORECASE)
 _AXES_BY_AZIMUTH = {0.0: ("NS", 1.0), 180.0: ("NS", -1.0), 90.0: ("EW", 1.0), 270.0: ("EW", -1.0)}
 
@@ -91,11 +92,14 @@ def parse_signed_direction(text: str) -> Direction | None:
 
     Examples
     --------
-    >>> [(d.code, d.sign) for d in map(parse_signed_direction, ("UD(down)", "Z-", "-UD", "NS(S+)", "EW (+E)", "UD(上が正)"))]
+    >>> [(d.code, d.sign) for d in map(parse_signed_direction, ("UD(down)", "Z down", "-UD", "NS(S+)", "EW (+E)", "UD(上が正)"))]
     [('UD', -1.0), ('UD', -1.0), ('UD', -1.0), ('NS', -1.0), ('EW', 1.0), ('UD', 1.0)]
-    >>> parse_signed_direction("UD"), parse_signed_direction("UD (filtered)"), parse_signed_direction("N-S")
+    >>> parse_signed_direction("UD"), parse_signed_direction("UD (filtered)"), parse_signed_direction("up-down")
     (None, None, None)
     """
+    if parse_direction(text) is None:
+        # "up-down" is a name, "Z down" a name and its sense
+        text = _SENSE_WORD.sub(r"\1 (\2)", text.strip())
     match = _SIGNED.match(text.strip())
     if match is None:
         return None

@@ -123,6 +123,16 @@ def test_column_t_beside_time_is_transverse(table):
         read(table("time,NS vel (cm/s),EW vel (cm/s),UD vel (cm/s)"))
 
 
+@pytest.mark.parametrize("name", ["UD down (gal)", "Z_down (gal)", "Z[gal] down", "Vertical (gal) down positive", "UD-downward_gal"])
+def test_down_as_a_word_is_not_dropped(name, table):
+    """Before or after the unit: it was part of the name of a channel, or dropped."""
+    record = read(table(f"time,NS (gal),EW (gal),{name}"))
+    assert record.codes == ("NS", "EW", "UD")
+    np.testing.assert_allclose(record.component("UD").acceleration, -UP / 100, rtol=1e-15)
+    upward = read(table("time,NS (gal),EW (gal),up-down (gal)"))
+    np.testing.assert_allclose(upward.component("UD").acceleration, UP / 100, rtol=1e-15)
+
+
 def test_down_column_is_inverted_and_reported(table):
     """A column that is positive down becomes UD with the sign reversed, with a note."""
     record = read(table("time,NS (gal),EW (gal),DOWN (gal)"))

@@ -18,6 +18,7 @@ from seisblock.readers.table.headers import (
     classify_other_quantity,
     component_code,
     is_clock_unit,
+    normalize_cell,
     normalize_unit,
     split_unit,
     strip_name,
@@ -123,7 +124,10 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
     if unit and inner_unit and inner_unit != unit:
         message = "{name}: two units, {inner} and {unit}, in column {written!r}; keep one"
         raise UnitError(message, name=name, written=heading, inner=inner_unit, unit=unit)
-    signed = parse_signed_direction(strip_component_words(split_unit(heading)[0] if unit else heading))
+    # the sense may stand behind the unit: "Z (gal) down"
+    without_unit = re.sub(rf"[(\[{{<]\s*{re.escape(unit_text)}\s*[)\]}}>]", " ", normalize_cell(heading), count=1)
+    names = map(strip_component_words, (split_unit(heading)[0], without_unit) if unit else (heading,))
+    signed = next((direction for direction in map(parse_signed_direction, names) if direction is not None), None)
     if signed is not None:
         return _acceleration_column(index, heading, signed, unit or "")
     if unit and _BRACKET.search(bare_heading) and parse_direction(_BRACKET.sub("", bare_heading)) is not None:
