@@ -14,6 +14,7 @@ import grimp
 import pytest
 
 import seisblock
+from seisblock.core.registry import solver_names
 from seisblock.references import REFERENCES
 from tests.public_names import PUBLIC
 from tests.trees import syntax_tree
@@ -184,6 +185,16 @@ def test_public_api_has_runnable_examples(name):
     mask = {node.id for node in names if isinstance(node.ctx, ast.Store)} | {node.arg for node in nodes if isinstance(node, ast.arg)}
     brought = {alias.asname or alias.name for node in nodes if isinstance(node, (ast.Import, ast.ImportFrom)) for alias in node.names}
     assert {node.id for node in names} - mask - brought - set(seisblock.__all__) - set(dir(builtins)) == set()
+
+
+def test_solver_names_stand_together_in_few_files():
+    """At most three files outside of the models name three solvers or more: the others ask the registry what a solver can do."""
+    files = []
+    for path in sources():
+        literals = {node.value for node in ast.walk(syntax_tree(path)) if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+        if "models" not in path.parts and len(literals & set(solver_names())) >= 3:
+            files.append(path.name)
+    assert len(files) <= 3, files
 
 
 def test_imports_have_no_cycle():
