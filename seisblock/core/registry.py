@@ -94,7 +94,7 @@ class Solver:
     spatial : bool
         True if the body meets all components in three dimensions, with its own orientation; else it is reduced to the plane of the motion.
     topics : tuple of str
-        Topics of its references, see :mod:`seisblock.references`; the first one holds for every run.
+        Topics of its references, see :mod:`seisblock.references`.
     command_topics : tuple of str
         Further topics of its command.
     """

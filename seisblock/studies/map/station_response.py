@@ -10,6 +10,7 @@ import numpy as np
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import lazy_gettext
@@ -161,7 +162,8 @@ class StationBody(DisplayMixin):
     @property
     def citations(self) -> tuple[str, ...]:
         """Keys of the cited papers."""
-        return papers(*get_solver(self.solver).topics[:1])
+        has_two_layers = isinstance(self.body, TwoLayerBlock)
+        return papers(*(topic for topic in get_solver(self.solver).topics if has_two_layers or topic != "two-layer body"))
 
     @property
     def _studies(self) -> SolverStudies:
