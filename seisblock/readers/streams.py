@@ -6,12 +6,23 @@ import re
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from seisblock.core import checks
 from seisblock.core.errors import KindError, UnitError
+from seisblock.core.i18n import lazy_gettext
 from seisblock.readers.assemble import assemble
 from seisblock.readers.event import apply_event, load_event
 from seisblock.readers.response import ACCELERATION, VELOCITY, Inventories, Quantity
-from seisblock.readers.waveforms import ACCELEROMETERS, SEISMOMETERS, WaveformOptions, instrument_letter, trace_to_record
+from seisblock.readers.waveforms import (
+    ACCELEROMETERS,
+    SEISMOMETERS,
+    WaveformOptions,
+    instrument_letter,
+    is_counts,
+    processed_counts_error,
+    trace_to_record,
+)
 from seisblock.records import Component, Record
 from seisblock.records.qc import run_qc
 
@@ -75,9 +86,12 @@ def _to_part(trace: Any, options: WaveformOptions) -> Record:
         # the response attached by a FDSN client has no azimuth and dip
         options = replace(options, inventory=Inventories(inventory=_attached_inventory(trace), is_requested=True))
     part = trace_to_record("ObsPy stream", trace, "STREAM", options, physical=physical)
-    if physical is not None and "remove_sensitivity" in _processing(trace):
-        # a division leaves the offset of the instrument
+    if physical is not None and ("remove_sensitivity" in _processing(trace) or "knet" in trace.stats):
+        # a factor leaves the offset of the instrument
         part = replace(part, metadata={**part.metadata, "carries_offset": True})
+    if physical is not None and physical.factor != 1.0:
+        entry = lazy_gettext("{channel}: calibration factor {factor:g} of the file applied", channel=trace.id, factor=physical.factor)
+        part = replace(part, history=(entry, *part.history))
     return part
 
 
@@ -107,9 +121,26 @@ def _processed_quantity(trace: Any) -> Quantity | None:
         return Quantity(ACCELERATION, 1.0)
     has_response = getattr(trace.stats, "response", None) is not None
     is_accelerometer = not letter or letter in ACCELEROMETERS
-    if trace.data.dtype.kind == "f" and not has_response and is_accelerometer:
+    if trace.data.dtype.kind != "f" or not trace.data.size or has_response or not is_accelerometer:
+        return None
+    if "knet" in trace.stats:
+        return Quantity(ACCELERATION, _knet_factor(trace))
+    encoding = str(trace.stats.get("mseed", {}).get("encoding", "FLOAT"))
+    if encoding.startswith("FLOAT"):
         return Quantity(ACCELERATION, 1.0)
+    # counts of a file, made floating-point numbers by a filter
+    if not is_counts(trace.data):
+        raise processed_counts_error("ObsPy stream", trace)
     return None
+
+
+def _knet_factor(trace: Any) -> float:
+    """Return the factor to m/s^2 of a trace of ObsPy's K-NET reader: the calibration factor, or 1 if it was applied already.
+
+    ObsPy keeps the factor, of about 1e-6, after it is applied; the peak in the header, gal, tells counts from accelerations.
+    """
+    calib, peak = float(trace.stats.calib), float(np.ptp(trace.data)) * 100.0
+    return calib if peak * calib**0.5 > float(trace.stats.knet.get("accmax", 0.0)) else 1.0
 
 
 def _plugin_unit(trace: Any) -> str:

@@ -238,7 +238,7 @@ def _as_floats(trace: Any) -> FloatArray:
     return np.require(np.ma.getdata(trace.data), np.float64, ["C", "O", "W"])
 
 
-def _is_counts(values: FloatArray) -> bool:
+def is_counts(values: FloatArray) -> bool:
     """Return whether all samples are whole numbers and not all zero."""
     return bool(values.any()) and bool((values == np.rint(values)).all())
 
@@ -255,12 +255,8 @@ def _convert_with_response(name: str, trace: Any, channel: Any, options: Wavefor
     if quantity.name == VELOCITY and not options.differentiate:
         raise _velocity_error(name, trace)
     values = _as_floats(trace)
-    if not options.inventory.is_requested and not _is_counts(values) and values.any():
-        message = (
-            "{name}: samples of {channel} are not whole numbers, so the response may have been removed: give `units` if so, or the "
-            "StationXML as `inventory` to remove it"
-        )
-        raise UnitError(message, name=name, channel=trace.id)
+    if not options.inventory.is_requested and not is_counts(values) and values.any():
+        raise processed_counts_error(name, trace)
     proved = ("unit", "instrument")
     if options.response == "full":
         values, entry = remove_full_response(trace, channel, trace.id)
@@ -270,6 +266,15 @@ def _convert_with_response(name: str, trace: Any, channel: Any, options: Wavefor
         values, entry = differentiate(values, float(trace.stats.delta), trace.id)
         history += (entry,)
     return Conversion(values, history, proved=proved)
+
+
+def processed_counts_error(name: str, trace: Any) -> UnitError:
+    """Return the error of counts that were processed, by a response or by a filter."""
+    message = (
+        "{name}: samples of {channel} are not whole numbers, so the response may have been removed: give `units` if so, or the "
+        "StationXML as `inventory` to remove it"
+    )
+    return UnitError(message, name=name, channel=trace.id)
 
 
 def _velocity_error(name: str, trace: Any) -> UnitError:
@@ -290,7 +295,7 @@ def _convert_without_response(name: str, trace: Any, waveform: str, options: Wav
     if options.response == "full" and not physical:
         message = "{name}: the full response requires the StationXML of {channel}; give `inventory`"
         raise UnitError(message, name=name, channel=trace.id)
-    is_integer = trace.data.dtype.kind in "iu"
+    is_integer = trace.data.dtype.kind in "iu" or (waveform == "STREAM" and is_counts(trace.data))
     history: tuple[str, ...] = ()
     values = _as_floats(trace)
     if physical:

@@ -18,6 +18,7 @@ from seisblock.readers.options import ReadOptions
 from seisblock.readers.read import read_source
 from seisblock.records import Component, Record
 from seisblock.records.site import get_site
+from seisblock.samples import sample_path
 from tests.readers.stations import COUNTS_PER_UNIT, DT, START, channel, counts, inventory, trace, write_station
 
 
@@ -308,6 +309,31 @@ def test_round_trip_through_obspy_is_exact():
         for first, second in zip(copy.components, record.components, strict=True):
             np.testing.assert_array_equal(first.acceleration, second.acceleration)
         assert copy.history == record.history
+
+
+@pytest.mark.parametrize("is_applied", [False, True])
+def test_from_obspy_reads_knet_of_obspy(is_applied):
+    """ObsPy gives counts as floating-point numbers and a factor, which stays after it is applied; offset as from the file."""
+    stream = obspy.read(str(sample_path("synthetic_knet.NS")), format="KNET", apply_calib=is_applied)
+    record, reference = Record.from_obspy(stream), read("synthetic_knet.NS")
+    np.testing.assert_allclose(record.component("NS").acceleration, reference.component("NS").acceleration, rtol=1e-12)
+    assert record.carries_offset and not record.doubts
+    assert any("calibration factor" in line for line in record.history) != is_applied
+
+
+def test_from_obspy_refuses_filtered_counts(tmp_path):
+    """Filters of ObsPy make floating-point numbers of the integers of a file; they are no accelerations."""
+    obspy.Stream([trace("HNN")]).write(str(tmp_path / "a.mseed"), "MSEED")
+    stream = obspy.read(str(tmp_path / "a.mseed"))
+    copy = stream.copy()
+    copy[0].data = copy[0].data.astype(float)
+    with pytest.raises(UnitError, match="contains counts"):
+        Record.from_obspy(copy)
+    stream.detrend("demean").filter("highpass", freq=0.1)
+    with pytest.raises(UnitError, match="not whole numbers, so the response may have been removed: give `units` if so, or the StationXML"):
+        Record.from_obspy(stream)
+    Record.from_obspy(stream, units="gal")
+    Record.from_obspy(stream, inventory(channel("HNN")))
 
 
 @pytest.mark.parametrize("event", [5, ["a"], [None]], ids=str)
