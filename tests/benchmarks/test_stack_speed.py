@@ -76,17 +76,49 @@ def test_stack_and_mujoco(stones, pga, capsys):
     assert speed["seisblock"] > MINIMUM[stones] * max(speed["MuJoCo 1 ms"], speed["MuJoCo 2 ms"])
 
 
+def shaking_along_three_axes(seconds):
+    time = np.arange(0.0, seconds, 0.01)
+    rows = [5.0 * np.sin(2.0 * np.pi * 2.0 * time), 3.0 * np.sin(2.0 * np.pi * 2.74 * time + 0.3), np.sin(2.0 * np.pi * 4.6 * time)]
+    return Motion(np.array(rows), 0.01)
+
+
+def slabs(count):
+    slab = PileStone("s0", 0.6, 0.6, 0.08)
+    return Pile("slabs", (slab, *(replace(slab, name=f"s{i}", on=f"s{i - 1}") for i in range(1, count))), mu=0.3)
+
+
+def wall(mu):
+    """Return a wall of 40 stones in five courses, 1 mm apart."""
+    lowest = [PileStone(f"s0_{i}", 0.5, 0.3, 0.25, offset=(0.501 * i, 0.0)) for i in range(10)]
+    others = [PileStone(f"s{r}_{i}", 0.5, 0.3, 0.25, offset=(0.2505, 0.0), on=f"s{r - 1}_{i}") for r in range(1, 5) for i in range(10 - r)]
+    return Pile("wall", (*lowest, *others), mu=mu)
+
+
+HARD = {
+    "10 sliding slabs": (slabs(10), 2.0, 8.0),
+    "20 sliding slabs": (slabs(20), 2.0, 1.5),
+    "wall of 40": (wall(0.5), 0.4, 0.2),
+}
+"""Pile, seconds of shaking, and simulated seconds per second that it reaches at least."""
+
+
+@pytest.mark.parametrize("case", HARD)
+def test_hard_piles(case, benchmark):
+    """Stones that slide on each other along both axes, the hard case beside the lenient ones above."""
+    pile, seconds, minimum = HARD[case]
+    response = benchmark.pedantic(solve_stack, (pile, shaking_along_three_axes(seconds)), rounds=2, warmup_rounds=1)
+    assert not response.warnings
+    assert benchmark.stats is None or response.time[-1] / benchmark.stats.stats.min > minimum
+
+
 @pytest.mark.parametrize("count", [5, 10, 14])
 def test_sliding_slabs_and_mujoco(count, capsys):
     """Slabs that slide on each other in both directions, the hard case: at least as fast as MuJoCo at 2 ms, in one run, in turns."""
     pytest.importorskip("mujoco", reason="an extra: pip install seisblock[mujoco]")
     from tests.crosscheck.mujoco_pile import any_stone_falls
 
-    seconds, slab = 2.0, PileStone("s0", 0.6, 0.6, 0.08)
-    time = np.arange(0.0, seconds, 0.01)
-    rows = [5.0 * np.sin(2.0 * np.pi * 2.0 * time), 3.0 * np.sin(2.0 * np.pi * 2.74 * time + 0.3), np.sin(2.0 * np.pi * 4.6 * time)]
-    motion = Motion(np.array(rows), 0.01)
-    pile = Pile("slabs", (slab, *(replace(slab, name=f"s{i}", on=f"s{i - 1}") for i in range(1, count))), mu=0.3)
+    seconds = 2.0
+    pile, motion = slabs(count), shaking_along_three_axes(seconds)
     runs = {"seisblock": lambda: solve_stack(pile, motion, law="rigid"), "MuJoCo 2 ms": lambda: any_stone_falls(pile, motion, 2e-3)}
     speed, results = dict.fromkeys(runs, 0.0), {}
     for _ in range(3):
