@@ -16,7 +16,15 @@ FILES = [
     *sorted((ROOT / ".github").rglob("*.*")),
     *(
         ROOT / name
-        for name in (".pre-commit-config.yaml", ".readthedocs.yaml", "SECURITY.md", "CODE_OF_CONDUCT.md", "codemeta.json", "Dockerfile")
+        for name in (
+            ".pre-commit-config.yaml",
+            ".readthedocs.yaml",
+            "SECURITY.md",
+            "CODE_OF_CONDUCT.md",
+            "codemeta.json",
+            "Dockerfile",
+            "paper/paper.md",
+        )
     ),
 ]
 
@@ -44,6 +52,15 @@ def test_placeholders_of_the_owner_are_the_listed_ones():
     result = {match for path in FILES for match in PLACEHOLDER.findall(path.read_text(encoding="utf-8"))}
     page = (ROOT / "docs" / "developers" / "release.md").read_text(encoding="utf-8")
     assert result == set(PLACEHOLDER.findall(page)) != set()
+
+
+def test_paper_has_the_sections_and_length_of_its_journal():
+    """JOSS asks for 750 to 1750 words and for these sections; every citation is in the bibliography."""
+    text, bibliography = ((ROOT / "paper" / name).read_text(encoding="utf-8") for name in ("paper.md", "paper.bib"))
+    assert {"Summary", "Statement of need", "State of the field", "Software design", "Research impact statement", "AI usage disclosure",
+            "Acknowledgements", "References"} <= set(re.findall(r"^# (.+)$", text, re.MULTILINE))  # fmt: skip
+    assert 750 <= len(text.split()) <= 1750
+    assert set(re.findall(r"@(\w+)", text)) == set(re.findall(r"^@\w+\{(\w+),", bibliography, re.MULTILINE))
 
 
 def test_metadata_agrees_with_the_package():
