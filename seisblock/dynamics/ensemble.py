@@ -21,8 +21,10 @@ from seisblock.dynamics.buffers import (
     FIRST_EVENT_TIME,
     MODE,
     N_EVENTS,
+    OUTPUT,
     SAMPLE,
     SAMPLES_AFTER,
+    SCRATCH,
     SEGMENT_START,
     SHAPE,
     STEPS_LEFT,
@@ -31,11 +33,12 @@ from seisblock.dynamics.buffers import (
     BatchState,
     Forcing,
     Output,
+    Scratch,
     State,
 )
 from seisblock.dynamics.cancellation import check_cancelled
 from seisblock.dynamics.events import BEGINNING, Instant, Instants
-from seisblock.dynamics.hybrid import LOOP_POINTERS, allocate_scratch, allocate_scratch_kernel
+from seisblock.dynamics.hybrid import LOOP_POINTERS, allocate_scratch
 from seisblock.dynamics.integration import STEPS_PER_SLICE, initial_state
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.model_api import LANE_FIELDS, N_LANES
@@ -47,16 +50,9 @@ _t = types()
 _IS_FAILURE = np.array([status in FAILURES for status in Status])
 
 
-@kernel(_t.int64(*LOOP_POINTERS, BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, _t.int64, _t.int64), allocates=True)
-def integrate_rows(advance, series, reset, skip, forcing, shape, parameters, rows, first_row, steps):
+@kernel(_t.int64(*LOOP_POINTERS, BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, OUTPUT, SCRATCH, _t.int64, _t.int64))
+def integrate_rows(advance, series, reset, skip, forcing, shape, parameters, rows, no_output, scratch, first_row, steps):
     """Integrate one trajectory per row of `parameters` from `first_row` on, for `steps` steps in total; return the next row."""
-    n_states = rows.states.shape[1]
-    path = np.empty((0, n_states))
-    modes = np.empty(0, np.int64)
-    events = np.empty((0, 4), np.int64)
-    times = np.empty(0)
-    limits = np.empty((0, 2, n_states))
-    scratch = allocate_scratch_kernel(shape, n_states, forcing.acceleration.shape[0])
     row = first_row
     while row < parameters.shape[0] and steps > 0:
         if rows.statuses[row] != PAUSED:
@@ -73,7 +69,16 @@ def integrate_rows(advance, series, reset, skip, forcing, shape, parameters, row
             shape,
             parameters[row],
             State(counters, rows.clocks[row], rows.states[row]),
-            Output(path, modes, events, times, limits, rows.extrema[row], rows.transition_counts[row], rows.dwell_times[row]),
+            Output(
+                no_output.path,
+                no_output.modes,
+                no_output.events,
+                no_output.times,
+                no_output.limits,
+                rows.extrema[row],
+                rows.transition_counts[row],
+                rows.dwell_times[row],
+            ),
             scratch,
         )
         # one step is charged for the call itself, so that rows at rest use up the allowance, too
@@ -194,12 +199,13 @@ def integrate_many(
         forcing = BatchForcing(segment.acceleration, scale, motion.dt)
         rows.counters[:, SEGMENT_START], rows.counters[:, SAMPLES_AFTER] = segment.first, segment.samples_after
         row = 0
+        work = _no_output(n_states), allocate_scratch(model.shape, n_states, segment.acceleration.shape[0])
         if model.stride is not None:
-            integrate_rows_simd(model, forcing, p, rows)
+            integrate_rows_simd(model, forcing, p, rows, *work)
             continue
         while row < m:
             check_cancelled()
-            row = integrate_rows(*model.pointers, forcing, model.shape, p, rows, row, STEPS_PER_SLICE)
+            row = integrate_rows(*model.pointers, forcing, model.shape, p, rows, *work, row, STEPS_PER_SLICE)
     end = Instants(rows.counters[:, SAMPLE], rows.clocks[:, TAU])
     failed: BoolArray = _IS_FAILURE[rows.statuses]
     for row in () if allow_failures else np.flatnonzero(failed)[:1]:
@@ -225,14 +231,17 @@ def integrate_many(
     )
 
 
-def integrate_rows_simd(model: Model, forcing: BatchForcing, p: FloatArray, rows: BatchState) -> None:
-    """Integrate all rows to the end of a motion or segment, side by side in lanes."""
-    lane_rows, needs_engine = np.full(N_LANES, -1), np.ones(N_LANES, dtype=np.int64)
-    lane_state, n_states = np.zeros(LANE_FIELDS * N_LANES), rows.states.shape[1]
+def _no_output(n_states: int) -> Output:
+    """Return an output without rows for path and events."""
     path, modes, events = np.empty((0, n_states)), np.empty(0, dtype=np.int64), np.empty((0, 4), dtype=np.int64)
     times, limits = np.empty(0), np.empty((0, 2, n_states))
-    no_output = Output(path, modes, events, times, limits, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))
-    scratch = allocate_scratch(model.shape, n_states, forcing.acceleration.shape[0])
+    return Output(path, modes, events, times, limits, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))
+
+
+def integrate_rows_simd(model: Model, forcing: BatchForcing, p: FloatArray, rows: BatchState, no_output: Output, scratch: Scratch) -> None:
+    """Integrate all rows to the end of a motion or segment, side by side in lanes."""
+    lane_rows, needs_engine = np.full(N_LANES, -1), np.ones(N_LANES, dtype=np.int64)
+    lane_state = np.zeros(LANE_FIELDS * N_LANES)
     functions = (*model.pointers, model.stride_pointer)
     row = 0
     # the lanes keep their trajectories between the calls

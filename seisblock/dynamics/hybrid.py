@@ -92,10 +92,6 @@ def allocate_scratch(shape, n_states, rows):
     )
 
 
-allocate_scratch_kernel = kernel(SCRATCH(SHAPE, _t.int64, _t.int64), inline=True, allocates=True)(allocate_scratch)
-"""Compiled version of :func:`allocate_scratch`."""
-
-
 @kernel(_t.void(OUTPUT, _t.int64, VECTOR, _t.int64), inline=True)
 def _store_sample(output, sample, y, mode):
     for i in range(y.size):
@@ -329,10 +325,9 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     return status
 
 
-@kernel(_t.int64(*LOOP_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT), allocates=True)
-def integrate_kernel(advance, series, reset, skip, forcing, shape, p, state, output):
-    """Advance one trajectory as :func:`advance` does, with its own work arrays; return a status code."""
-    scratch = allocate_scratch_kernel(shape, state.state.size, forcing.acceleration.shape[0])
+@kernel(_t.int64(*LOOP_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT, SCRATCH))
+def integrate_kernel(advance, series, reset, skip, forcing, shape, p, state, output, scratch):
+    """Advance one trajectory as :func:`advance` does; return a status code."""
     return advance(series, reset, skip, forcing, shape, p, state, output, scratch)
 
 
@@ -346,6 +341,5 @@ __all__ = [
     "advance",
     "integrate_kernel",
     "allocate_scratch",
-    "allocate_scratch_kernel",
     "no_skip",
 ]

@@ -159,6 +159,7 @@ class _Integration:
         Events are moved from the output tables to `logs` whenever the tables are half full; the last ones stay in the tables.
         """
         forcing = Forcing(segment.acceleration, self.gains, self.motion.dt)
+        scratch = hybrid.allocate_scratch(self.model.shape, state.state.size, segment.acceleration.shape[0])
         state.counters[SEGMENT_START], state.counters[SAMPLES_AFTER] = segment.first, segment.samples_after
         last = segment.first + segment.acceleration.shape[1] - 1
         status = PAUSED
@@ -166,7 +167,7 @@ class _Integration:
         while status == PAUSED and (state.counters[SAMPLE] < last or not segment.samples_after):
             check_cancelled()
             state.counters[STEPS_LEFT] = STEPS_PER_SLICE
-            status = hybrid.integrate_kernel(*self.model.pointers, forcing, self.model.shape, self.p, state, output)
+            status = hybrid.integrate_kernel(*self.model.pointers, forcing, self.model.shape, self.p, state, output, scratch)
             # paused because of half-full tables, not because of the steps
             if status == PAUSED and 2 * (state.counters[N_EVENTS] - state.counters[N_FLUSHED]) > output.times.size > 0:
                 # the limit grows with the record: long ones may have more events
