@@ -106,7 +106,10 @@ def test_paths_in_pages_exist(page):
     """Every path in a page leads to a file or folder of the repository."""
     text = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|\w+\.(?:py|md|toml|pyi|cff))`", page.read_text(encoding="utf-8")))
     text -= {name for name in text if any(word in name for word in PLACEHOLDERS)} | set(SURFACES)
-    assert sorted(name for name in text if name != "utils.py" and not any(path.endswith("/" + name) for path in repository_paths())) == []
+    assert (
+        sorted(name for name in text if name != "utils.py" and not any(f"/{path}".endswith(f"/{name}") for path in repository_paths()))
+        == []
+    )
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
