@@ -96,7 +96,7 @@ def test_ci_runs_suite_and_slow_tests():
 @functools.cache
 def repository_paths():
     """Return the files and folders of the repository, each after a slash, folders before one."""
-    folders = ("seisblock", "tests", "docs", "sample_records", ".ci", ".github")
+    folders = ("seisblock", "tests", "docs", "sample_records", "paper", ".ci", ".github")
     paths = [*ROOT.glob("*"), *(path for folder in folders for path in (ROOT / folder).rglob("*"))]
     return ["/" + path.relative_to(ROOT).as_posix() + "/" * path.is_dir() for path in paths]
 
@@ -106,10 +106,7 @@ def test_paths_in_pages_exist(page):
     """Every path in a page leads to a file or folder of the repository."""
     text = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|\w+\.(?:py|md|toml|pyi|cff))`", page.read_text(encoding="utf-8")))
     text -= {name for name in text if any(word in name for word in PLACEHOLDERS)} | set(SURFACES)
-    assert (
-        sorted(name for name in text if name != "utils.py" and not any(f"/{path}".endswith(f"/{name}") for path in repository_paths()))
-        == []
-    )
+    assert sorted(name for name in text if name != "utils.py" and not any(path.endswith("/" + name) for path in repository_paths())) == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
