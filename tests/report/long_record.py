@@ -451,5 +451,5 @@ def drawing_functions():
         if function.__module__ == module.__name__
         and not name.startswith("_")
         and function is not response_figure  # draws the figure that a model registers
-        and function.__annotations__.get("return") in ("Figure", "StyledFigure")
+        and function.__annotations__.get("return") in ("Figure", "StyledFigure", "style.StyledFigure")
     }

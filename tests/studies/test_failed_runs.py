@@ -12,12 +12,12 @@ from seisblock.models.respond.batch import respond_many
 from seisblock.models.respond.options import RespondOptions
 from seisblock.readers import read
 from seisblock.records import Motion
-from seisblock.studies import sampling
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.map.station_response import StationBody
 from seisblock.studies.map.stations import survey_stations
 from seisblock.studies.respond import azimuths, mode_map
 from seisblock.studies.respond.probability import respond_probability
+from seisblock.studies.solvers import respond as respond_studies
 from tests.models.respond.cases import at_lean
 
 BLOCK = Block(0.24, 0.8, name="shelf")
@@ -42,7 +42,7 @@ def drop_rows(monkeypatch):
 
 def test_respond_probability_counts_only_versions_with_an_answer(drop_rows):
     """All 20 versions fall; two that are given up do not count as standing."""
-    drop_rows(sampling, [2, 16])
+    drop_rows(respond_studies, [2, 16])
     result = respond_probability(BLOCK, PULSE, options=RespondOptions(mu=0.5), runs=20)
     assert (result.runs, result.overturned, result.no_answer) == (18, 1.0, (3, 17))
     assert result.interval == pytest.approx((0.025 ** (1 / 18), 1.0))
@@ -50,14 +50,14 @@ def test_respond_probability_counts_only_versions_with_an_answer(drop_rows):
 
 def test_respond_probability_refuses_where_no_version_has_an_answer(drop_rows):
     """Without any answer there is no share."""
-    drop_rows(sampling, None)
+    drop_rows(respond_studies, None)
     with pytest.raises(SolverError, match="20 of 20 runs have no result"):
         respond_probability(BLOCK, PULSE, options=RespondOptions(mu=0.5), runs=20)
 
 
 def test_run_batch_names_versions_without_an_answer(drop_rows):
     """The row has its share and a warning; the table keeps its columns."""
-    drop_rows(sampling, [0])
+    drop_rows(respond_studies, [0])
     table = run_batch("synthetic_jma.csv", BLOCK, "respond", components="EW", runs=10, mu=0.5)
     assert table["runs"] == [9]
     assert "1 of 10 samples stopped without a result and excluded (numbers 1)" in table["warnings"][0]

@@ -13,10 +13,10 @@ from seisblock.models.respond.solve import solve_respond
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.references import REFERENCES
-from seisblock.studies import sampling
 from seisblock.studies.respond.azimuths import respond_directions
 from seisblock.studies.respond.probability import Probability, respond_probability
 from seisblock.studies.sampling import ParameterVariation
+from seisblock.studies.solvers import respond as respond_studies
 
 PULSE = Motion.from_arrays(6.0 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.005)
 DEFAULT_VARIATION = ParameterVariation()
@@ -50,7 +50,7 @@ def test_respond_samples_are_uniform_within_half_widths(monkeypatch):
         calls.extend(zip(settings.mu, bounce, arguments["gains"], strict=True))
         return respond_many(settings, motion, **arguments)
 
-    monkeypatch.setattr(sampling, "respond_many", overheard)
+    monkeypatch.setattr(respond_studies, "respond_many", overheard)
     still = Motion(1e-6 * np.ones((3, 4)), 0.01)
     share(Block(0.24, 0.8), still, mu=0.5, runs=400)
     mu, restitution, gains = (np.array(column) for column in zip(*calls, strict=True))

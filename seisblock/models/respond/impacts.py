@@ -9,8 +9,8 @@ Rocking impact
     prescribed ratio r theta' is multiplied by r and the slip follows from friction; r is reduced where energy would grow.
 Rebounds
     Below SMALL_RATE = 1e-12 sqrt(g R) a rebound is suppressed where contact would persist, and a rocking body is set flat where it would
-    rest or slide or where its slip is of that order, too, as is a body whose other rates are of that order where a rebound is suppressed.
-    Lifts of 1e-21 R are neglected, and rest is reached early by less than 1e-8 sqrt(R/g).
+    rest or slide, or where its slip is of that order, too. Lifts of 1e-21 R are neglected, and rest is reached early by less than
+    1e-8 sqrt(R/g).
     A rebound shorter than the resolution of time (1e-14 of the sampling interval) starts and ends in the same state, with a gap or tilt of
     exactly zero: its contact is closed. Round-off produces such rebounds where two limits coincide, for example at mu = b/h.
 Clattering
@@ -76,9 +76,6 @@ BISECTIONS = 60
 
 SIMULTANEITY = 1e-4
 """Time between impacts of the two corners, over SMALL_RATE/g, below which they are simultaneous: 1e-16 sqrt(R/g)."""
-
-NEGLIGIBLE = 10.0
-"""Largest rate over SMALL_RATE of a body that is set flat where the rebound of one corner is suppressed."""
 
 ROUND_OFF = 1e-12
 """Relative growth of energy attributed to round-off."""
@@ -269,10 +266,6 @@ def land(right, y, f, p, has_tenon):
     # after the plastic impact the struck corner is at rest vertically, so that the other one approaches by rotation
     # alone
     closing_rate = -base_width * math.cos(y[THETA]) * y[OMEGA]
-    limit = NEGLIGIBLE * p[SMALL_RATE]
-    if p[RESTITUTION] > 0.0 and max(abs(closing_rate), abs(y[SPEED])) < limit and p[GRAVITY] * base_width * math.sin(y[THETA]) < limit**2:
-        # with the rebounds of one corner alone suppressed, the ground's work could sustain those of the other endlessly
-        return _set_flat(y[OMEGA], y[SPEED], y, f, p, has_tenon)
     # time to the second impact, gap over closing rate, compared without a division
     if closing_rate > 0.0 and p[GRAVITY] * base_width * math.sin(y[THETA]) < SIMULTANEITY * p[SMALL_RATE] * closing_rate:
         # clattering: the other corner follows within 1e-16 sqrt(R/g), infinitely often; the limit is one impact of both
