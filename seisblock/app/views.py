@@ -257,12 +257,12 @@ def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
             "models": [],
         }
     # several horizontals: the object falls under either of them
-    shown = document.get("object", rows[0])
+    assessed = document.get("object", rows[0])
     return {
-        "probability": shown["overturning_probability"],
-        "text": format_percent(shown["overturning_probability"], "g"),
-        "verdict": (object_headline if "object" in document else headline)(_assessment(shown)),
-        "level": LEVELS[shown["class"]],
+        "probability": assessed["overturning_probability"],
+        "text": format_percent(assessed["overturning_probability"], "g"),
+        "verdict": (object_headline if "object" in document else headline)(_assessment(assessed)),
+        "level": LEVELS[assessed["class"]],
         "rows": [
             (
                 row["direction"],
@@ -279,7 +279,7 @@ def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
                 gettext("overturns") if model["overturns"] else gettext("stands"),
                 "" if model["factor_to_overturn"] is None else f"{model['factor_to_overturn']:.2f}",
             )
-            for model in shown["models"]
+            for model in assessed["models"]
         ],
     }
 

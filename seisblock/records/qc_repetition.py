@@ -100,9 +100,9 @@ def _find_candidates(a: FloatArray) -> IntArray:
     # a table of the last bits excludes most others sooner than a search does
     table = np.zeros(_TABLE, dtype=np.bool_)
     table[repeated % _TABLE] = True
-    found = np.flatnonzero(table[values % _TABLE])
-    found = found[repeated[np.searchsorted(repeated, values[found]).clip(max=repeated.size - 1)] == values[found]]
-    starts, ends = runs[found], np.append(runs[1:], a.size - WINDOW + 1)[found]
+    recurring = np.flatnonzero(table[values % _TABLE])
+    recurring = recurring[repeated[np.searchsorted(repeated, values[recurring]).clip(max=repeated.size - 1)] == values[recurring]]
+    starts, ends = runs[recurring], np.append(runs[1:], a.size - WINDOW + 1)[recurring]
     # windows further inside a run consist of the values of an anchor that overlaps itself: nine at most, too few to be looked at
     is_long = ends - starts > 2 * _ANCHORS
     starts, ends = np.append(starts, ends[is_long] - _ANCHORS), np.append(np.where(is_long, starts + _ANCHORS, ends), ends[is_long])

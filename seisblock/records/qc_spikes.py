@@ -70,8 +70,8 @@ def find_spikes_and_jumps(acceleration: FloatArray) -> tuple[IntArray, IntArray]
         lone = {s for s in _find_spikes(step, is_steeper_than_left, is_steeper_than_right) if s in block}
         spikes += [s + offset for s in lone]
         # a spike is a jump and a jump back, and reported as a spike only
-        found = _find_jumps(step, is_steeper_than_left, is_steeper_than_right)
-        jumps += [j + offset for j in found if j in block and not lone & {j - 2, j - 1, j, j + 1}]
+        isolated_steps = _find_jumps(step, is_steeper_than_left, is_steeper_than_right)
+        jumps += [j + offset for j in isolated_steps if j in block and not lone & {j - 2, j - 1, j, j + 1}]
     return np.array(sorted(spikes), dtype=np.int64), np.array(sorted(jumps), dtype=np.int64)
 
 

@@ -28,9 +28,9 @@ def fill(kind: type[Entry], *sources: Any, **values: Any) -> Entry:
     for key in kind.__struct_fields__:
         if key not in values:
             names = (key, split_unit(key)[0])
-            found = next((getattr(source, name) for source in sources for name in names if hasattr(source, name)), UNSET)
-            if found is not UNSET:
-                values[key] = found.tolist() if isinstance(found, np.ndarray) else found
+            value = next((getattr(source, name) for source in sources for name in names if hasattr(source, name)), UNSET)
+            if value is not UNSET:
+                values[key] = value.tolist() if isinstance(value, np.ndarray) else value
     return kind(**values)
 
 

@@ -155,10 +155,10 @@ def scale_factors(
     below = np.array(values) < observed
     # a sign change brackets a factor; a step may bracket a discontinuity as well
     brackets = np.flatnonzero(below[:-1] != below[1:])
-    found = _bisect(displacement, observed, np.array(grid)[brackets], np.array(grid)[brackets + 1], below[brackets + 1])
+    crossing_factors = _bisect(displacement, observed, np.array(grid)[brackets], np.array(grid)[brackets + 1], below[brackets + 1])
     factors = [
         ScaleFactor(factor, factor * peak, crossing, abs(crossing - observed) > DISCONTINUITY_TOLERANCE * observed)
-        for factor, crossing in zip(found, _evaluate(displacement, found), strict=True)
+        for factor, crossing in zip(crossing_factors, _evaluate(displacement, crossing_factors), strict=True)
     ]
     top = int(np.argmax(values))
     curve = tuple(grid), tuple(values)
