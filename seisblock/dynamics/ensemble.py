@@ -130,6 +130,12 @@ class Ensemble:
         """End times of the integrations, (m,), s after sample 0."""
         return self.end.sample * self.dt + self.end.tau
 
+    def replace_rows(self, rows: IntArray, other: Ensemble) -> None:
+        """Take the rows `rows` from another ensemble of that many rows."""
+        for name in ("final", "final_mode", "n_events", "first_event_time", "extrema", "transition_counts", "dwell_times", "failed"):
+            getattr(self, name)[rows] = getattr(other, name)
+        self.end.sample[rows], self.end.tau[rows] = other.end
+
 
 def integrate_many(
     model: Model,

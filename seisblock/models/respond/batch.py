@@ -18,8 +18,9 @@ from seisblock.criteria.initiation import Mode
 from seisblock.dynamics import Ensemble, integrate_many
 from seisblock.dynamics.buffers import LONGEST, TOTAL
 from seisblock.dynamics.cancellation import cancel_scope, current_events
+from seisblock.dynamics.model import Model
 from seisblock.models.respond import constants
-from seisblock.models.respond.params import Initial, RespondBatchParams, RespondParams
+from seisblock.models.respond.params import FLAT_RATE, SMALL_RATE, Initial, RespondBatchParams, RespondParams
 from seisblock.models.respond.run import check_settling, zero_motion
 from seisblock.records import Motion
 from seisblock.records._validation import validate_motion
@@ -172,9 +173,7 @@ def _run_batch(
     model = template.model
     duration = (motion.samples - 1) * motion.dt
     # a failed row must not fail the others: it is reported, and excluded from what follows
-    record_run = integrate_many(
-        model, motion, _parameter_rows(params, motion.dt, duration), initial_states, template.first_mode, gains=gains, allow_failures=True
-    )
+    record_run = _integrate_rows(model, motion, _parameter_rows(params, motion.dt, duration), initial_states, template.first_mode, gains)
     failed = record_run.failed.copy()
     final, mode, end = record_run.final.copy(), record_run.final_mode.copy(), record_run.end_time.copy()
     high, low = _extrema(record_run)
@@ -186,7 +185,7 @@ def _run_batch(
         for kind in np.unique(mode[moving]):
             # one call per mode: the engine starts all rows of an ensemble in the same mode
             rows = np.flatnonzero(moving & (record_run.final_mode == kind))
-            free_run = integrate_many(model, ground, p[rows], record_run.final[rows], int(kind), gains=(1.0, 0.0, 1.0), allow_failures=True)
+            free_run = _integrate_rows(model, ground, p[rows], record_run.final[rows], int(kind), np.array([[1.0, 0.0, 1.0]]))
             failed[rows] = free_run.failed
             final[rows], mode[rows] = free_run.final, free_run.final_mode
             end[rows] = duration + free_run.end_time
@@ -210,6 +209,19 @@ def _run_batch(
         time_in_mode_s=mode_times,
         longest_flight_s=longest_times[:, MODE_COLUMNS.index(Mode.FLIGHT)],
     )
+
+
+def _integrate_rows(model: Model, motion: Motion, p: FloatArray, initial: FloatArray, mode: int, gains: FloatArray) -> Ensemble:
+    """Integrate rows; repeat those with bodies set flat whose impacts do not end."""
+    ensemble = integrate_many(model, motion, p, initial, mode, gains=gains, allow_failures=True)
+    rows = np.flatnonzero(ensemble.failed)
+    if not rows.size:
+        return ensemble
+    flat = p[rows]
+    flat[:, constants.FLAT_RATE] = FLAT_RATE / SMALL_RATE * flat[:, constants.SMALL_RATE]
+    first, repeated = np.broadcast_to(initial, (len(p), initial.shape[-1]))[rows], np.broadcast_to(gains, (len(p), 3))[rows]
+    ensemble.replace_rows(rows, integrate_many(model, motion, flat, first, mode, gains=repeated, allow_failures=True))
+    return ensemble
 
 
 def _parameter_rows(

@@ -67,15 +67,16 @@ GUARDS = (
 
 (
     GRAVITY, DT, MU, MU_KINETIC, RESTITUTION, ROCKING_RESTITUTION, ARM_RIGHT, ARM_LEFT, HEIGHT, GYRATION, TENON, NEAR_JAM,
-    GROUND_AT_REST, SMALL_RATE,
+    GROUND_AT_REST, SMALL_RATE, FLAT_RATE,
     MAX_IMPACTS, POINTS,
-) = range(16)  # fmt: skip
+) = range(17)  # fmt: skip
 """Parameters, SI.
 
 ROCKING_RESTITUTION: prescribed ratio of angular velocities in a rocking impact; -1: impact law; between -1 and 0: minus the share of
 Housner's ratio. ARM_*: horizontal distances b2 and b1 from the lower corners to the centre of gravity, whose height is HEIGHT;
 GYRATION: squared radius of gyration; TENON: depth; NEAR_JAM: 1 where kinetic friction is near Painleve's limit; GROUND_AT_REST: 1 after
-the end of the record; SMALL_RATE: v_z, the rebound velocity below which bouncing ends; then xi, eta of each further point."""
+the end of the record; SMALL_RATE: v_z, the rebound velocity below which bouncing ends; FLAT_RATE: velocity of both
+corners below which a body that would rest or slide is set flat, 0 unless a run is repeated; then xi, eta of each further point."""
 
 HALF_PI = 0.5 * math.pi
 NO_MODE = -1

@@ -11,6 +11,8 @@ Rebounds
     Below SMALL_RATE = 1e-12 sqrt(g R) a rebound is suppressed where contact would persist, and a rocking body is set flat where it would
     rest or slide, or where its slip is of that order, too. Lifts of 1e-21 R are neglected, and rest is reached early by less than
     1e-8 sqrt(R/g).
+    Where one corner's rebound is suppressed and the other's, just above SMALL_RATE, is kept up by friction, the impacts never end. Such a
+    run is repeated with FLAT_RATE = 1e-10 sqrt(g R): where an impact leaves both corners slower, a body that would stay flat is set flat.
     A rebound shorter than the resolution of time (1e-14 of the sampling interval) starts and ends in the same state, with a gap or tilt of
     exactly zero: its contact is closed. Round-off produces such rebounds where two limits coincide, for example at mu = b/h.
 Clattering
@@ -32,6 +34,7 @@ from seisblock.dynamics.array_types import MATRIX, VECTOR
 from seisblock.models.respond.constants import (
     ARM_LEFT,
     ARM_RIGHT,
+    FLAT_RATE,
     FLIGHT,
     GAP_LEFT,
     GAP_RIGHT,
@@ -177,6 +180,15 @@ def _set_flat(omega, slip, y, f, p, has_tenon):
     return continue_in_contact(True, True, NO_MODE, y, f, p, has_tenon)
 
 
+@kernel(_t.boolean(_t.boolean, _t.float64, VECTOR, VECTOR))
+def _is_negligible(right, rate, y, p):
+    """Return whether both corners are slower than FLAT_RATE, and lower than that velocity takes them, after one of them rises at `rate`."""
+    base_width = corner_offset(right, p) - corner_offset(not right, p)
+    other_rate = rate + base_width * math.cos(y[THETA]) * y[OMEGA]
+    limit = p[FLAT_RATE]
+    return max(rate, abs(other_rate)) < limit and p[GRAVITY] * abs(base_width * math.sin(y[THETA])) < limit * limit
+
+
 @kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, _t.float64, _t.float64, VECTOR, MATRIX, VECTOR, _t.boolean))
 def _corner_impact_or_rest(right, u, v, y, f, p, has_tenon):
     """Return theta', u, v and loss of an impact at one corner, without a negligible rebound where contact would persist."""
@@ -260,6 +272,8 @@ def land(right, y, f, p, has_tenon):
     slip = y[SPEED] + corner_position(right, y[THETA], p)[1] * y[OMEGA]
     y[OMEGA], rate_after, y[SPEED], loss = _corner_impact_or_rest(right, y[rate], slip, y, f, p, has_tenon)
     y[LOSS] += loss
+    if _is_negligible(right, rate_after, y, p) and stays_flat(y[SPEED], f, p, has_tenon):
+        return _set_flat(y[OMEGA], y[SPEED], y, f, p, has_tenon)
     if rate_after > 0.0:
         return lift_off(right, rate_after, y, p)
     base_width = corner_offset(right, p) - corner_offset(not right, p)
@@ -345,6 +359,8 @@ def rocking_impact(onto_right, y, f, p, has_tenon):
     y[OMEGA] = omega_after
     y[SPEED] = slip_after
     y[LOSS] += loss
+    if _is_negligible(onto_right, rate, y, p) and stays_flat(slip_after, f, p, has_tenon):
+        return _set_flat(omega_after, slip_after, y, f, p, has_tenon)
     if rate > 0.0:
         return lift_off(onto_right, rate, y, p)
     # smallest rocking that counts: at rest, or on a base that would rest or slide, the infinite sequence of impacts ends here

@@ -46,6 +46,9 @@ restitution of 0.3 to 0.9."""
 SMALL_RATE = 1e-12
 """v_z over sqrt(g R): rebound velocity at which bouncing ends."""
 
+FLAT_RATE = 1e-10
+"""The same for both corners together in a run that sets bodies flat."""
+
 JAM_WARNING_RATIO = 0.999
 """Ratio of kinetic friction to Painleve's limit from which the cone guard is active."""
 
@@ -137,6 +140,8 @@ class RespondParams(DisplayMixin):
         Points of the body, to +x of the centre of gravity and above it, that end the motion on contact with the ground.
     rocking_share : float
         Ratio of angular velocities in a rocking impact over Housner's ratio, used without `rocking_restitution`; 1: impact law.
+    sets_flat : bool
+        True in the repetition of a run whose impacts do not end: FLAT_RATE acts.
     """
 
     rigid_body: RigidBody
@@ -148,6 +153,7 @@ class RespondParams(DisplayMixin):
     tenon: float = 0.0
     further_points: tuple[tuple[float, float], ...] = ()
     rocking_share: float = 1.0
+    sets_flat: bool = False
 
     def __post_init__(self) -> None:
         non_negative(N_("the friction coefficient mu"), self.mu)
@@ -195,13 +201,14 @@ class RespondParams(DisplayMixin):
         return START + TENON_OFFSET if self.tenon > 0.0 else START
 
     def parameters(self, dt: float, *, duration_s: float = 0.0, ground_at_rest: bool = False) -> FloatArray:
-        """Return the parameter vector of the model, (15 + 2 n_points,), for a run of `duration_s` seconds."""
+        """Return the parameter vector of the model, (16 + 2 n_points,), for a run of `duration_s` seconds."""
         body = self.rigid_body
         # a negative value encodes a share of Housner's ratio, see ``constants``: one parameter serves both laws
         ratio = NO_MODE * self.rocking_share if self.rocking_restitution is None else self.rocking_restitution
         row = [
             self.gravity, dt, self.mu, self.mu_kinetic, self.restitution, ratio, body.right, body.left, body.height, body.gyration_squared,
             self.tenon, float(self.mu_kinetic >= JAM_WARNING_RATIO * body.friction_limit), float(ground_at_rest), self.small_rate,
+            FLAT_RATE / SMALL_RATE * self.small_rate if self.sets_flat else 0.0,
             MAX_IMPACTS + MAX_IMPACTS_PER_SECOND * duration_s,
         ]  # fmt: skip
         return np.array(row + [value for point in self.further_points for value in point])
@@ -307,7 +314,7 @@ class RespondBatchParams:
         )
 
     def parameters(self, dt: float, *, duration_s: float = 0.0, ground_at_rest: bool = False) -> FloatArray:
-        """Return the parameter vectors of the model, (m, 15)."""
+        """Return the parameter vectors of the model, (m, 16)."""
         table = np.tile(self.row_params(0).parameters(dt, duration_s=duration_s, ground_at_rest=ground_at_rest), (len(self), 1))
         largest = self.blocks.radii.max(axis=1)
         kappa = self.blocks.gyration_squared / (largest * largest)

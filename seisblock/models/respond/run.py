@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from seisblock.core.errors import ParameterError
+from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.typing import FloatArray, IntArray
-from seisblock.dynamics import EventLog, Instant, Trajectory, integrate
+from seisblock.dynamics import EventLog, Trajectory, integrate
 from seisblock.models.respond import constants
 from seisblock.models.respond.params import Initial, RespondParams
 from seisblock.records import Motion
@@ -117,32 +117,47 @@ def run(
 ) -> Run:
     """Solve one run through a motion and up to rest; without `keep_path` samples and events are discarded."""
     duration = (motion.samples - 1) * motion.dt
-    record_part = integrate(
-        params.model,
-        motion,
-        params.parameters(motion.dt, duration_s=duration),
-        params.state(initial),
-        params.first_mode,
-        gains=gains,
-        start=Instant(),
-        keep_path=keep_path,
-        keep_events=keep_path,
+    record_part = _integrate(
+        params, motion, params.state(initial), params.first_mode, gains, duration_s=duration, ground_at_rest=False, keep_path=keep_path
     )
     # at rest nothing can start a motion once the ground is still
     if not is_moving(record_part.final_mode) or settle_s == 0.0:
         return Run(record_part, None, duration)
     ground = zero_motion(settle_s)
-    free_part = integrate(
-        params.model,
+    free_part = _integrate(
+        params,
         ground,
-        params.parameters(ground.dt, duration_s=duration + settle_s, ground_at_rest=True),
         record_part.final,
         record_part.final_mode,
-        gains=(1.0, 0.0, 1.0),
+        (1.0, 0.0, 1.0),
+        duration_s=duration + settle_s,
+        ground_at_rest=True,
         keep_path=keep_path,
-        keep_events=keep_path,
     )
     return Run(record_part, free_part, duration)
+
+
+def _integrate(
+    params: RespondParams,
+    motion: Motion,
+    initial: FloatArray,
+    mode: int,
+    gains: tuple[float, float, float],
+    *,
+    duration_s: float,
+    ground_at_rest: bool,
+    keep_path: bool,
+) -> Trajectory:
+    """Integrate one part of a run; repeat it with bodies set flat where its impacts do not end."""
+
+    def attempt(params: RespondParams) -> Trajectory:
+        p = params.parameters(motion.dt, duration_s=duration_s, ground_at_rest=ground_at_rest)
+        return integrate(params.model, motion, p, initial, mode, gains=gains, keep_path=keep_path, keep_events=keep_path)
+
+    try:
+        return attempt(params)
+    except SolverError:
+        return attempt(replace(params, sets_flat=True))
 
 
 def is_moving(mode: int) -> bool:

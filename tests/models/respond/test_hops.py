@@ -1,6 +1,7 @@
 """Ever smaller hops: where they end, that hops of 1e-20 m are followed, and that hops without end are given up with a sentence."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from seisblock.models.respond import constants, solve_respond
 from seisblock.models.respond.batch import respond_many
 from seisblock.models.respond.describe import describe
 from seisblock.models.respond.options import RespondOptions
+from seisblock.models.respond.run import run
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
 from tests.models.respond.cases import SLENDER, at_lean, sequence, shaking, solve_case, still_ground
@@ -110,6 +112,44 @@ def test_rocking_that_decays_beyond_the_load_of_a_corner_ends(mu):
     block = Block(0.625, 1.75, centroid_height=1.3125, centroid_offset=-0.09765625)
     response = solve_respond(block, shaking(92985, 8.7498909, seconds=8.0, dt=0.005), sensitivity=False, mu=mu, restitution=0.05)
     assert sequence(response.outcome)[-1] == "rest"
+
+
+KEPT_UP = [
+    (
+        Block(0.6875, 0.76171875, centroid_height=0.40625 * 0.76171875),
+        {"mu": 1.125, "restitution": 0.6},
+        shaking(4507, 10.375, seconds=8.0, dt=0.02),
+    ),
+    (Block(2.25, 2.875, centroid_height=0.80859375), {"mu": 1.457, "restitution": 0.6}, shaking(26400, 11.878, seconds=8.0, dt=0.02)),
+]
+"""Sliding blocks whose hops are kept up by friction at any scale: one corner's rebound is suppressed, the other's is not."""
+
+
+@pytest.mark.parametrize(("block", "options", "motion"), KEPT_UP)
+def test_hops_kept_up_by_friction_end(block, options, motion):
+    """The run is repeated with bodies set flat, to the same end alone and among other rows, with its energy accounted for."""
+    outcome = solve_respond(block, motion, sensitivity=False, **options).outcome
+    balance = outcome.energy_ground_j - outcome.energy_friction_j - outcome.energy_impacts_j
+    assert outcome.settled
+    assert balance == pytest.approx(0.0, abs=1e-8 * outcome.energy_ground_j)
+    params = respond_params(block, options=RespondOptions(**options))
+    mild = respond_params(block, options=RespondOptions(mu=0.3))
+    rows = respond_many([mild, params, mild], motion).require_complete()
+    alone = respond_many([mild], motion)
+    assert rows.impacts[1] == outcome.impacts
+    assert rows.final_displacement_m[1] == outcome.final_displacement_m
+    assert rows.final_displacement_m[[0, 2]].tolist() == alone.final_displacement_m.tolist() * 2
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+def test_bodies_set_flat_move_as_others(seed):
+    """Setting bodies flat at 1e-10 sqrt(g R) leaves out impacts at the end of a motion, and nothing that can be measured."""
+    params = respond_params(Block(0.6, 0.7), options=RespondOptions(mu=0.9, restitution=0.4))
+    motion = shaking(seed, 11.0, seconds=8.0, dt=0.02)
+    default, flat = (run(params, motion, (1.0, 0.0, 1.0), None, 10.0) for params in (params, replace(params, sets_flat=True)))
+    assert flat.record_part.n_events < default.record_part.n_events
+    assert flat.final[constants.X] == pytest.approx(default.final[constants.X], abs=1e-12)
+    assert flat.extrema(constants.THETA) == pytest.approx(default.extrema(constants.THETA), abs=1e-12)
 
 
 def test_slide_longer_than_settle_s_ends_with_time_limit_status():
