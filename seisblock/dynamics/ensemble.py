@@ -33,7 +33,6 @@ from seisblock.dynamics.buffers import (
     BatchState,
     Forcing,
     Output,
-    Scratch,
     State,
 )
 from seisblock.dynamics.cancellation import check_cancelled
@@ -41,8 +40,6 @@ from seisblock.dynamics.events import BEGINNING, Instant, Instants
 from seisblock.dynamics.hybrid import LOOP_POINTERS, allocate_scratch
 from seisblock.dynamics.integration import STEPS_PER_SLICE, initial_state
 from seisblock.dynamics.model import Model
-from seisblock.dynamics.model_api import LANE_FIELDS, N_LANES
-from seisblock.dynamics.simd import integrate_in_lanes
 from seisblock.records.motion import Motion
 
 _t = types()
@@ -206,9 +203,6 @@ def integrate_many(
         rows.counters[:, SEGMENT_START], rows.counters[:, SAMPLES_AFTER] = segment.first, segment.samples_after
         row = 0
         work = _no_output(n_states), allocate_scratch(model.shape, n_states, segment.acceleration.shape[0])
-        if model.stride is not None:
-            integrate_rows_simd(model, forcing, p, rows, *work)
-            continue
         while row < m:
             check_cancelled()
             row = integrate_rows(*model.pointers, forcing, model.shape, p, rows, *work, row, STEPS_PER_SLICE)
@@ -242,17 +236,3 @@ def _no_output(n_states: int) -> Output:
     path, modes, events = np.empty((0, n_states)), np.empty(0, dtype=np.int64), np.empty((0, 4), dtype=np.int64)
     times, limits = np.empty(0), np.empty((0, 2, n_states))
     return Output(path, modes, events, times, limits, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))
-
-
-def integrate_rows_simd(model: Model, forcing: BatchForcing, p: FloatArray, rows: BatchState, no_output: Output, scratch: Scratch) -> None:
-    """Integrate all rows to the end of a motion or segment, side by side in lanes."""
-    lane_rows, needs_engine = np.full(N_LANES, -1), np.ones(N_LANES, dtype=np.int64)
-    lane_state = np.zeros(LANE_FIELDS * N_LANES)
-    functions = (*model.pointers, model.stride_pointer)
-    row = 0
-    # the lanes keep their trajectories between the calls
-    while row < p.shape[0] or (lane_rows >= 0).any():
-        check_cancelled()
-        row = integrate_in_lanes(
-            *functions, forcing, model.shape, p, rows, lane_rows, needs_engine, lane_state, no_output, scratch, row, STEPS_PER_SLICE
-        )
