@@ -20,7 +20,7 @@ def folder(tmp_path_factory):
         patch.setenv("COLUMNS", "80")
         assert page_differences(PAGE) == []
         assert changed_figures(PAGE, second) == []
-        for name in ("bookcase", "upstairs"):
+        for name in ("bookcase", "floor"):
             answer = CliRunner().invoke(main, ["risk", "--fragility", f"{name}.json", "--hazard", "synthetic_hazard.csv", "--json"])
             (second / f"{name}_risk.json").write_text(answer.stdout, encoding="utf-8")
     return second
@@ -34,11 +34,11 @@ def first_result(folder, name):
 @pytest.mark.slow
 def test_tutorial_commands_give_frequency(folder):
     """On an upper floor the bookcase overturns under weaker ground motion, and more often; its warnings name the ground motion."""
-    first, upstairs = first_result(folder, "bookcase"), first_result(folder, "upstairs")
-    assert first["im"] == upstairs["im"] == "pgv" and first["records"] == 12
-    assert upstairs["median"] < first["median"]
-    assert first_result(folder, "upstairs_risk")["annual_rate"] > first_result(folder, "bookcase_risk")["annual_rate"] > 0.0
-    document = json.loads((folder / "upstairs.json").read_text(encoding="utf-8"))
+    first, floor = first_result(folder, "bookcase"), first_result(folder, "floor")
+    assert first["im"] == floor["im"] == "pgv" and first["records"] == 12
+    assert floor["median"] < first["median"]
+    assert first_result(folder, "floor_risk")["annual_rate"] > first_result(folder, "bookcase_risk")["annual_rate"] > 0.0
+    document = json.loads((folder / "floor.json").read_text(encoding="utf-8"))
     assert "floor motion T 0.6 s" in document["record"][0]["history"][-1]
     assert any("intensities of the ground motion" in text for text in document["warnings"])
 

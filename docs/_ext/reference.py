@@ -90,13 +90,13 @@ def kind_of(schema: dict[str, Any]) -> str:
 
 def table(name: str, schema: dict[str, Any]) -> str:
     """Return the keys of one type: contents, unit, meaning."""
-    told = plain(schema.get("description", "").strip().replace("\n", " "))
+    text = plain(schema.get("description", "").strip().replace("\n", " "))
     rows = [
         f"| `{key}` | {kind_of(value)} | {plain(value.get('unit', ''))} | {plain(' '.join(value.get('description', '').split()))} |"
         for key, value in schema.get("properties", {}).items()
     ]
     head = ["| key | holds | unit | meaning |", "|---|---|---|---|"] if rows else []
-    return "\n".join((f"### {name}\n", f"{told}\n" if told else "", *head, *rows, ""))
+    return "\n".join((f"### {name}\n", f"{text}\n" if text else "", *head, *rows, ""))
 
 
 def documents(_: str) -> str:

@@ -179,7 +179,7 @@ def map(  # noqa: A001 - the command's name
         if surveys:
             yield from text_output.survey_tables(surveys)
 
-    result = document(stations, model, surveys, upstairs=source.floor is not None)
+    result = document(stations, model, surveys, has_floor_motion=source.floor is not None)
     write_results(
         result, output, tables=tables, csv=table, figure=figure_of("stations:figure", stations, model, gal=output.gal, surveys=surveys)
     )

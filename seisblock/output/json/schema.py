@@ -241,7 +241,7 @@ class DocumentSchema:
         records: Sequence[Record] = (),
         citations: Sequence[str] = (),
         warnings: Iterable[str] = (),
-        upstairs: bool = False,
+        has_floor_motion: bool = False,
         **extra: Any,
     ) -> Document:
         """Return the document of results; with several records each result holds its record index.
@@ -256,7 +256,7 @@ class DocumentSchema:
             Records without a result of their own.
         citations, warnings : sequences of str
             Duplicates are removed.
-        upstairs : bool
+        has_floor_motion : bool
             Whether the motions are floor motions although no record is marked as one.
         beside
             Values of the extra keys.
@@ -271,6 +271,8 @@ class DocumentSchema:
             parameters=parameters,
             results=[msgspec.structs.replace(entry, record_index=index[id(r)]) if id(r) in index else entry for r, entry in pairs],
             warnings=list(dict.fromkeys([*qc_summary(records), *warnings])),
-            citations=list(dict.fromkeys([*citations, *(papers("storey") if upstairs or any(map(is_floor_motion, records)) else ())])),
+            citations=list(
+                dict.fromkeys([*citations, *(papers("storey") if has_floor_motion or any(map(is_floor_motion, records)) else ())])
+            ),
             **extra,
         )

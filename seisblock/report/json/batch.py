@@ -84,7 +84,7 @@ def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Docu
         entries,
         citations=papers(*plan.model.topics),
         warnings=notes,
-        upstairs=plan.preparation.floor is not None,
+        has_floor_motion=plan.preparation.floor is not None,
         records_count=tally.records,
         unread_count=tally.unreadable,
     )

@@ -142,7 +142,7 @@ def document(
         records=study.records,
         citations=citations,
         warnings=[*notes, *study.notes],
-        upstairs=study.floor is not None,
+        has_floor_motion=study.floor is not None,
     )
 
 

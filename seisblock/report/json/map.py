@@ -173,7 +173,7 @@ DATES_APART = N_("the records begin {days:.0f} days apart, {first} ({one}) and {
 
 
 def document(
-    stations: Stations, model: StationModel | None, surveys: Sequence[SurveyComparison] = (), *, upstairs: bool = False
+    stations: Stations, model: StationModel | None, surveys: Sequence[SurveyComparison] = (), *, has_floor_motion: bool = False
 ) -> Document:
     """Return the document of the stations of an earthquake, largest response first.
 
@@ -182,7 +182,7 @@ def document(
     stations : Stations
     model : StationBody, StationCemetery or None
     surveys : sequence of SurveyComparison
-    upstairs : bool
+    has_floor_motion : bool
         Whether the motions are floor motions.
     """
     body = model if isinstance(model, StationBody) else None
@@ -201,7 +201,7 @@ def document(
         [(None, _station_entry(answer)) for answer in stations.answers],
         citations=tuple(dict.fromkeys((*papers("measures"), *(model.citations if model else ()), *(_SURVEY_CITATIONS if surveys else ())))),
         warnings=warnings(stations),
-        upstairs=upstairs,
+        has_floor_motion=has_floor_motion,
         earthquake=None if stations.earthquake is None else earthquake_entry(stations.earthquake),
         surveys=tuple(map(survey_entry, surveys)),
         contradictions=tuple(contradictions(surveys)),
