@@ -41,3 +41,24 @@ html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#a93226", "color-brand-content": "#a93226", "color-brand-visited": "#7b3f36"},
     "dark_css_variables": {"color-brand-primary": "#e59a8f", "color-brand-content": "#e59a8f", "color-brand-visited": "#d3b0aa"},
 }
+
+THEME_JA = {
+    "Next": "次へ",
+    "Previous": "前へ",
+    "Home": "ホーム",
+    "On this page": "目次",
+    "Search": "検索",
+    "Contents": "目次",
+    "Back to top": "先頭へ",
+}
+
+
+def setup(app):
+    """Translate the theme's own words on the Japanese pages: the site is built in one language."""
+    app.connect("html-page-context", translate_theme)
+
+
+def translate_theme(app, pagename, templatename, context, doctree):
+    """Replace the theme's gettext on a Japanese page."""
+    if pagename.startswith("ja/"):
+        context["_"] = lambda text: THEME_JA.get(text, text)

@@ -90,3 +90,19 @@ def test_fractions_of_two_digits_are_halves(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "docs" / "_ext"))
     mathml = importlib.import_module("mathml")
     assert "<mfrac><mn>3</mn><mn>2</mn></mfrac>" in "".join(mathml.to_mathml(r"\frac32 x", block=False).split())
+
+
+def test_gallery_titles_are_unique(monkeypatch):
+    """Two entries had the title "Hazard, fragility, and disaggregation ...": a link list that names two things alike."""
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "_ext"))
+    titles = re.findall(r"^## (.*)", importlib.import_module("reference").gallery(""), re.M)
+    assert len(titles) > 20 and sorted(set(titles)) == sorted(titles)
+
+
+def test_theme_words_of_japanese_pages_are_japanese(monkeypatch):
+    """The site is built in English: the theme wrote "Next" and "Previous" below Japanese pages."""
+    monkeypatch.syspath_prepend(str(ROOT / "docs"))
+    conf, english, japanese = importlib.import_module("conf"), {}, {}
+    conf.translate_theme(None, "start/faq", "page.html", english, None)
+    conf.translate_theme(None, "ja/start", "page.html", japanese, None)
+    assert "_" not in english and [japanese["_"](text) for text in ("Next", "Previous")] == ["次へ", "前へ"]

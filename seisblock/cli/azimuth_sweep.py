@@ -45,11 +45,11 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
         return
     for record in load_records(replace(source, component=())):
         results = solve(record)
-        text = N_("worst of {count} azimuths: {azimuth:g} degrees")
+        text = N_("worst of {count} azimuths: {azimuth:g}°")
         if not any(result.moves for result in results):
             # no worst one: the first azimuth stands for all, the one with the largest peak
             results = sorted(results, key=lambda result: -_peak(record, result.azimuth_deg))
-            text = N_("no motion in any of {count} azimuths; largest PGA at {azimuth:g} degrees")
+            text = N_("no motion in any of {count} azimuths; largest PGA at {azimuth:g}°")
         info(text, count=len(results), azimuth=results[0].azimuth_deg)
         yield motion_of(record, azimuth_name(record, results[0].azimuth_deg)), results
 

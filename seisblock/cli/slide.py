@@ -159,7 +159,7 @@ def _run_single(
             points = slide_study(motions=_motions(record, source, directions), **single, **fixed)  # type: ignore[arg-type]
             sweep += points
             worst_azimuth = worst_directions(points)[0].component
-            info("largest slip of {count} azimuths: azimuth {azimuth} degrees", count=len(directions), azimuth=worst_azimuth)
+            info("largest slip of {count} azimuths: azimuth {azimuth}°", count=len(directions), azimuth=worst_azimuth)
             selected = [motion_of(record, worst_azimuth)]
         responses += [solve_slide(base, motion, vertical=vertical, gravity=fixed["gravity"]) for motion in selected]
     write_results(

@@ -58,8 +58,8 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
 )
 @harmonic_record_options
 @option(
-    "--body",
     "--block",
+    "--body",
     "body",
     metavar="NAME|FILE",
     shell_complete=shell_completion.complete_bodies("springs"),

@@ -75,7 +75,7 @@ def test_cemetery_accepts_units_in_heading_or_cell(table, height):
     ("table", "message"),
     [
         ("", "contains no gravestones"),
-        ("# only\n\n# comments\n", "contains no gravestones, only 3 empty lines and comments"),
+        ("# only\n\n# comments\n", "contains no gravestones: a header and one line per stone are required"),
         ("height_over_width\n", "line 1: no gravestone below the header"),
         ("height,fallen\n1,0\n", "line 1: columns required: height_over_width, or height and width; found height, fallen"),
         ("2.5,1\n2.6,0\n", "line 1: columns required: height_over_width"),

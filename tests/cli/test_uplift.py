@@ -166,7 +166,7 @@ def test_uplift_writes_harmonic_curves_as_csv(run, tmp_path):
         (("--height", 2), "--width required", 3),
         (("--body", "gravestone"), 'kind must be "springs"', 3),
         (("--body", "nobody"), "bundled: machine", 3),
-        (("--harmonic", "--body", "machine"), "no effect with --harmonic", 2),
+        (("--harmonic", "--block", "machine"), "--block has no effect with --harmonic", 2),
         (("--width", 1), "--height required", 3),
         (("--width", 1, "--height", 2), "spring stiffness required", 3),
         (("--width", 0, "--height", 2, "--frequency-vertical", 5), "width of the block must be positive", 3),

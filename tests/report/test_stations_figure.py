@@ -106,9 +106,9 @@ def test_likely_overturning_has_thick_outline():
     two = [replace(answer, effect=effect) for answer, effect in zip(result.answers, effects, strict=False)]
     fig = figure(Stations(tuple(two), None, ""), subject)
     stands, falls = fig.axes[0].collections[0].get_linewidths()  # the worst on top
-    assert falls > 2.0 * stands and fig.axes[1].get_ylabel() == "overturning probability (1); thick rim: likely overturns"
+    assert falls > 2.0 * stands and fig.axes[1].get_ylabel() == "probability of overturning; thick rim: likely overturns"
     asleep = figure(Stations((two[1],), None, ""), subject)
-    assert asleep.axes[1].get_ylabel() == "overturning probability (1)"
+    assert asleep.axes[1].get_ylabel() == "probability of overturning"
 
 
 @pytest.mark.parametrize(("corner", "expected"), [((0, 0), 0.68), ((1, 0), 0.03)])

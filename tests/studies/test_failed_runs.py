@@ -73,7 +73,7 @@ def test_survey_stations_leaves_out_a_direction_without_an_answer(drop_rows):
     answer = survey_stations(record, subject).answers[0]
     assert answer.failure is None
     assert answer.effect.azimuth_deg != worst
-    assert any(text.startswith("no result in 1 of ") and text.endswith(f"(run stopped): {worst:g} deg") for text in answer.doubts)
+    assert any(text.startswith("no result in 1 of ") and text.endswith(f"(run stopped): {worst:g}°") for text in answer.doubts)
 
 
 def test_mode_map_marks_a_cell_without_an_answer(drop_rows):

@@ -180,8 +180,8 @@ def test_text_of_a_sliding_body_has_no_round_off():
     motion = motion_of(read("synthetic_jma.csv"), "NS")
     response = solve_rigid3d(plate, motion, mu=0.3)
     assert 0.0 < abs(response.outcome.twist_deg) < 1e-9
-    assert describe(response).endswith("twist 0 deg.")
-    assert "largest tilt 0 deg" in describe(response)
+    assert describe(response).endswith("twist 0°.")
+    assert "largest tilt 0°" in describe(response)
 
 
 def test_figure_in_three_dimensions_is_whole_in_japanese():

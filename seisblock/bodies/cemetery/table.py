@@ -56,7 +56,7 @@ def _cemetery(sheet: Sheet) -> Cemetery:
     """Return the cemetery of a sheet of gravestones."""
     source = sheet.source
     if not sheet.rows:
-        raise BodyError("{source} contains no gravestones, only {count} empty lines and comments", source=source, count=sheet.lines)
+        raise BodyError("{source} contains no gravestones: a header and one line per stone are required", source=source)
     table = parse_table(sheet, stones=True)
     if not table.rows:
         template = "{source}, line {line}: no gravestone below the header; add one line per stone"

@@ -38,9 +38,7 @@ def scan_qc_messages(scan: Scan) -> Iterator[Message]:
             unit=scan.unit,
         )
     if scan.tilt > MAX_UNREPORTED_TILT:
-        yield lazy_gettext(
-            "{name} was turned by {tilt:.2g} degrees to rest on level ground", name=scan.body.name, tilt=math.degrees(scan.tilt)
-        )
+        yield lazy_gettext("{name} was turned by {tilt:.2g}° to rest on level ground", name=scan.body.name, tilt=math.degrees(scan.tilt))
     if scan.pieces > 1:
         yield lazy_gettext(
             "{name} has {count} separate surfaces: they move as one body",

@@ -51,14 +51,11 @@ class Sheet:
         Line numbers and cells, normalised to NFKC, without comments and empty rows.
     notes : tuple of (int, str)
         Line numbers and texts of comments.
-    lines : int
-        Number of lines of a text.
     """
 
     source: str
     rows: tuple[Row, ...]
     notes: tuple[tuple[int, str], ...] = ()
-    lines: int = 0
 
     def split_header(self, meanings: Mapping[str, str]) -> tuple[Row, tuple[Row, ...]]:
         """Return the header and the rows below it.
@@ -153,7 +150,7 @@ def text_sheet(text: str, source: str) -> Sheet:
             # a title above the header has no separator
             separator = separator or find_separator(line, default="")
             rows.append((number, split_cells(line, separator or ",")))
-    return Sheet(source, tuple(rows), tuple(notes), len(text.splitlines()))
+    return Sheet(source, tuple(rows), tuple(notes))
 
 
 def _excel_rows(data: bytes, name: str) -> Iterator[Row]:

@@ -41,14 +41,14 @@ def verdict(response: Response[Rigid3dOutcome], *, gal: bool = True) -> str:
     """Return the result: overturning with its direction, or tilt, displacement and twist of a body that stands."""
     outcome = response.outcome
     if outcome.overturned:
-        template = N_("overturns towards azimuth {azimuth:.0f} deg at {time:.2f} s")
+        template = N_("overturns towards azimuth {azimuth:.0f}° at {time:.2f} s")
         if response.motion.azimuth_deg is None:
-            template = N_("overturns {azimuth:.0f} deg clockwise from +x at {time:.2f} s")
+            template = N_("overturns {azimuth:.0f}° clockwise from +x at {time:.2f} s")
         return lazy_gettext(template, azimuth=outcome.fell_azimuth_deg, time=outcome.overturning_time_s)
     if not outcome.moved:
         return lazy_gettext("remains at rest")
     return lazy_gettext(
-        "does not overturn: largest tilt {tilt:.2g} deg, residual displacement {length}, twist {twist:.2g} deg",
+        "does not overturn: largest tilt {tilt:.2g}°, residual displacement {length}, twist {twist:.2g}°",
         tilt=clean_angle(math.degrees(outcome.max_tilt_rad)),
         length=format_length(math.hypot(*outcome.final_displacement_m), gal=gal),
         twist=clean_angle(outcome.twist_deg),

@@ -44,9 +44,9 @@ def describe_base(response: Response[SlideOutcome]) -> str:
     base, options = response.body, response.options
     parts = [gettext("mu {mu:g}, kinetic {kinetic:g}", mu=base.mu, kinetic=base.kinetic)]
     if base.slope_deg and base.slope_length:
-        parts.append(gettext("slope {slope:g} deg for {length:g} m, then level", slope=base.slope_deg, length=base.slope_length))
+        parts.append(gettext("slope {slope:g}° for {length:g} m, then level", slope=base.slope_deg, length=base.slope_length))
     elif base.slope_deg:
-        parts.append(gettext("slope {slope:g} deg", slope=base.slope_deg))
+        parts.append(gettext("slope {slope:g}°", slope=base.slope_deg))
     if base.one_way:
         parts.append(gettext("one way"))
     if options.vertical:

@@ -168,11 +168,11 @@ def colour_values(stations: Stations, model: StationModel | None, *, gal: bool) 
         values = np.array([(answer.pga_m_s2 or 0.0) / unit.size for answer in stations.mapped])
         return values, f"PGA ({unit.name})", float(values.max()) or 1.0
     if isinstance(model, StationBody):
-        name = gettext("overturning probability (1)") if model.runs else gettext(EVENT_WORDS.get(model.event, N_("event")))
+        name = gettext("probability of overturning") if model.runs else gettext(EVENT_WORDS.get(model.event, N_("event")))
         if any(answer.effect.likely_overturns for answer in stations.mapped):
-            name = gettext("overturning probability (1); thick rim: likely overturns")
+            name = gettext("probability of overturning; thick rim: likely overturns")
         return np.array([_overturned_share(answer) for answer in stations.mapped]), name, 1.0
-    return np.array([answer.effect.rate or 0.0 for answer in stations.mapped]), gettext("overturning rate (1)"), 1.0
+    return np.array([answer.effect.rate or 0.0 for answer in stations.mapped]), gettext("overturning rate"), 1.0
 
 
 def survey_value(answer: SurveyComparison, model: StationModel | None, *, gal: bool) -> float:

@@ -94,9 +94,11 @@ def share_caveat(effect: ModelResponse) -> Iterator[str]:
     if effect.governing is None or effect.governing.probability is None:
         return
     if _overturned_share(effect) == 0.0:
-        yield gettext("In shaking-table runs of two granite rocks, 3 % of those with 0 of 20 samples overturning did overturn.")
+        yield gettext("In shaking-table runs of two granite rocks, the rock overturned in 3 % of those for which no computed sample did.")
     elif _overturned_share(effect) == 1.0:
-        yield gettext("In shaking-table runs of two granite rocks, 2 % of those with 20 of 20 samples overturning did not overturn.")
+        yield gettext(
+            "In shaking-table runs of two granite rocks, the rock stood in 2 % of those for which all computed samples overturned."
+        )
 
 
 def scatter_text(effects: Sequence[ModelResponse]) -> str:

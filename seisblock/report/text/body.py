@@ -31,7 +31,7 @@ def tables(scan: Scan, directions: Sequence[ScanAzimuth], *, gal: bool) -> Itera
     alpha, azimuth = min_slenderness(body)
     yield styled_line(
         gettext(
-            "{name}: {mass:.4g} kg, smallest overturning angle {alpha:.2f} degrees towards azimuth {azimuth:.0f}.",
+            "{name}: {mass:.4g} kg, smallest overturning angle {alpha:.2f}° towards azimuth {azimuth:.0f}°.",
             name=body.name,
             mass=body.mass,
             azimuth=azimuth,

@@ -98,7 +98,7 @@ def _curve_table(study: FragilityStudy, *, gal: bool) -> Any:
     bodies = list(dict.fromkeys(curve.body for curve in study.curves))
     has_bodies = len(bodies) > 1
     name = f"{gettext(study.measure.label)} ({unit})" if unit else gettext(study.measure.label)
-    header = [*([gettext("body")] if has_bodies else []), gettext("limit"), name, gettext("beta"), gettext("not monotone"), gettext("fits")]
+    header = [*([gettext("body")] if has_bodies else []), gettext("limit"), name, gettext("beta"), gettext("not monotone"), gettext("fit")]
     rows = [
         [
             *([gettext(curve.body)] if has_bodies else []),
@@ -106,13 +106,13 @@ def _curve_table(study: FragilityStudy, *, gal: bool) -> Any:
             _format_interval(curve.median, curve.median_interval, lambda value: format_number(value / size, 3)),
             _format_interval(curve.beta, curve.beta_interval, lambda value: f"{value:.2f}"),
             DASH if curve.method == CLOUD else f"{curve.non_monotone_motions}/{curve.motions}",
-            None if curve.goodness is None else curve.goodness.fits,
+            DASH if curve.goodness is None else gettext("good") if curve.goodness.fits else gettext("poor"),
         ]
         for curve in study.curves
     ]
     caption = gettext(
         "median and beta with {level:g%} confidence intervals over the records; not monotone: motions that reach the "
-        "limit but not at a higher level",
+        "limit but not at a higher level; fit: of the lognormal curve (poor: rejected at the 5 % level)",
         level=study.confidence,
     )
     return table("" if has_bodies else gettext(bodies[0]), header, rows, caption=caption)

@@ -225,7 +225,7 @@ def twist_tables(
 
 def _twist_sentence(estimate: TwistEstimate, level: float, limit: float, *, gal: bool) -> str:
     """Return the factor and PGA that explain the observed twist, with their intervals."""
-    subject = gettext("twist of {twist:g} deg", twist=estimate.twist_deg)
+    subject = gettext("twist of {twist:g}°", twist=estimate.twist_deg)
     if estimate.displacement_m is not None:
         length = format_length(estimate.displacement_m, gal=gal)
         subject = gettext("{twist} and displacement of {length}", twist=subject, length=length)
@@ -239,7 +239,7 @@ def _twist_sentence(estimate: TwistEstimate, level: float, limit: float, *, gal:
         )
     if estimate.scale is None or estimate.pga_m_s2 is None:
         return gettext(
-            "{name}: {what} not explained by scale factors up to {limit:g}; largest twist without overturning {largest:.2g} deg.",
+            "{name}: {what} not explained by scale factors up to {limit:g}; largest twist without overturning {largest:.2g}°.",
             name=estimate.component,
             what=subject,
             limit=limit,

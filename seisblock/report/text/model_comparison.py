@@ -179,20 +179,20 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
     low, high = perturbation.probability_interval
     if perturbation.probability < MIN_SHARE:
         text = N_(
-            "overturning probability {share} ({fallen} of {runs} samples). On shaking tables, 3 % of the runs with no "
-            "overturning sample did overturn."
+            "overturning probability {share} ({fallen} of {runs} samples). On shaking tables, the object overturned in 3 % of the "
+            "runs for which no computed sample did."
         )
     elif perturbation.probability > MAX_SHARE:
         text = N_(
-            "overturning probability {share} ({fallen} of {runs} samples). On shaking tables, 2 % of the runs with all "
-            "samples overturning did not overturn."
+            "overturning probability {share} ({fallen} of {runs} samples). On shaking tables, the object stood in 2 % of the runs "
+            "for which all computed samples overturned."
         )
     else:
         text = N_("overturning probability {share} ({fallen} of {runs} samples; 95 % CI {low} to {high}, {of}).")
     s = perturbation.spread
     sizes = lazy_gettext("width and height ±{share}", share=format_share(s.size))
     variation = gettext(
-        "samples with {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
+        "samples with {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g}°.",
         sizes=sizes,
         edges=sampled_edges(block, perturbation.ranges, s.inset),
         restitution=format_share(s.restitution),

@@ -71,7 +71,7 @@ def _summary(response: Response[RespondOutcome], extra: Mapping[str, Any], *, ga
 def base_lines(response: Response[Any], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:
     """Yield the width of the base of a block towards the azimuth; nothing along a recorded component."""
     if "block" in extra and (azimuth := requested_azimuth(response.motion)) is not None:
-        text = N_("  base {width} wide towards azimuth {azimuth:g}")
+        text = N_("  base {width} wide towards azimuth {azimuth:g}°")
         yield styled_line(gettext(text, width=format_length(response.body.width, gal=gal), azimuth=azimuth))
 
 
@@ -153,8 +153,8 @@ def variation_text(probability: Probability, block: Block) -> str:
     versions, ranges = probability.versions, probability.ranges or ParameterRanges()
     return gettext(
         "Parameter variation only (model error not included): {sizes}, {edges}, {friction}, restitution ±{restitution:g}, "
-        "amplitude ±{amplitude}, azimuth ±{azimuth:g} degrees. In 490 shaking-table runs of two granite rocks, 3 % of those "
-        "predicted 0/20 did overturn and 2 % of those predicted 20/20 did not.",
+        "amplitude ±{amplitude}, azimuth ±{azimuth:g}°. In 490 shaking-table runs of two granite rocks, the rock overturned in 3 % "
+        "of the runs for which no computed sample did, and stood in 2 % of those for which all did.",
         sizes=lazy_gettext("width and height ±{share}", share=format_share(versions.size)),
         edges=sampled_edges(block, probability.ranges, versions.inset),
         friction=(ranges.friction_text if versions.mu else None) or lazy_gettext("friction ±{share}", share=format_share(versions.mu)),

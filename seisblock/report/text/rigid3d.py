@@ -86,7 +86,7 @@ def probability_sentence(probability: SpatialProbability, *, gal: bool = True) -
         place, twist = probability.final_displacement_m, probability.abs_twist_deg
         unit = length_unit([place["q95"]], gal=gal)
         sentence = gettext(
-            "{falls}; without overturning, residual displacement {middle} (median) and {far} (95 %), twist {twist:.2g} and {most:.2g} deg",
+            "{falls}; without overturning, residual displacement {middle} (median) and {far} (95 %), twist {twist:.2g}° and {most:.2g}°",
             falls=sentence,
             middle=format_length(place["q50"], unit),
             far=format_length(place["q95"], unit),
@@ -106,7 +106,7 @@ def variation_text(probability: SpatialProbability, body: Any) -> str:
     parts.append((ranges.friction_text if versions.mu else None) or lazy_gettext("friction ±{share}", share=format_share(versions.mu)))
     return gettext(
         "Parameter variation only (model error not included): {parts}, restitution up to +{restitution:g}, amplitude ±{amplitude}, "
-        "azimuth ±{azimuth:g} degrees.",
+        "azimuth ±{azimuth:g}°.",
         parts=parts,
         restitution=versions.restitution,
         amplitude=format_share(versions.amplitude),

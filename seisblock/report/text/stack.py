@@ -122,7 +122,7 @@ def variation_text(probability: PileProbability, pile: Pile) -> str:
     size = lazy_gettext("size ±{share}", share=format_share(versions.size))
     return gettext(
         "Parameter variation only (model error not included): {shape}, friction of each joint ±{mu}, amplitude ±{amplitude}, "
-        "azimuth ±{azimuth:g} degrees.",
+        "azimuth ±{azimuth:g}°.",
         shape=lazy_gettext("{parts}", parts=[size, _wear_text(pile, versions.inset)] if versions.inset else [size]),
         mu=format_share(versions.mu),
         amplitude=format_share(versions.amplitude),

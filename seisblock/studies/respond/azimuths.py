@@ -74,7 +74,7 @@ def left_out_directions(directions: Sequence[Any]) -> list[str]:
     azimuths = [f"{direction.azimuth_deg:g}" for direction in sorted_directions if direction.gave_up]
     if not azimuths:
         return []
-    text = "no result in {count} of {all} azimuths (run stopped): {azimuths} deg"
+    text = "no result in {count} of {all} azimuths (run stopped): {azimuths}°"
     return [lazy_gettext(text, count=len(azimuths), all=len(directions), azimuths=", ".join(azimuths))]
 
 
