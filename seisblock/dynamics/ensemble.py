@@ -5,11 +5,14 @@ The loop over the rows is compiled and releases the GIL, so that callers can spl
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from seisblock._jit import kernel, types
+from seisblock._jit import function_pointer, kernel, types
 from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.status import FAILURES, PAUSED, Status
@@ -36,10 +39,11 @@ from seisblock.dynamics.buffers import (
     State,
 )
 from seisblock.dynamics.cancellation import check_cancelled
-from seisblock.dynamics.events import BEGINNING, Instant, Instants
+from seisblock.dynamics.events import BEGINNING, Instant, Instants, allocate_events
 from seisblock.dynamics.hybrid import LOOP_POINTERS, allocate_scratch
 from seisblock.dynamics.integration import STEPS_PER_SLICE, initial_state
 from seisblock.dynamics.model import Model
+from seisblock.dynamics.model_api import OBSERVE, observe_nothing
 from seisblock.records.motion import Motion
 
 _t = types()
@@ -47,9 +51,15 @@ _t = types()
 _IS_FAILURE = np.array([status in FAILURES for status in Status])
 
 
-@kernel(_t.int64(*LOOP_POINTERS, BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, OUTPUT, SCRATCH, _t.int64, _t.int64))
-def integrate_rows(advance, series, reset, skip, forcing, shape, parameters, rows, no_output, scratch, first_row, steps):
-    """Integrate one trajectory per row of `parameters` from `first_row` on, for `steps` steps in total; return the next row."""
+ROW_ARGUMENTS = BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, OUTPUT, SCRATCH, MATRIX, _t.int64, _t.int64
+
+
+@kernel(_t.int64(*LOOP_POINTERS, _t.FunctionType(OBSERVE), *ROW_ARGUMENTS))
+def integrate_rows(advance, series, reset, skip, observe, forcing, shape, parameters, rows, output, scratch, observed, first_row, steps):
+    """Integrate one trajectory per row of `parameters` from `first_row` on, for `steps` steps in total; return the next row.
+
+    A trajectory whose events do not fit into the tables stays paused.
+    """
     row = first_row
     while row < parameters.shape[0] and steps > 0:
         if rows.statuses[row] != PAUSED:
@@ -58,32 +68,57 @@ def integrate_rows(advance, series, reset, skip, forcing, shape, parameters, row
             continue
         counters = rows.counters[row]
         counters[STEPS_LEFT] = steps
-        rows.statuses[row] = advance(
-            series,
-            reset,
-            skip,
-            Forcing(forcing.acceleration, forcing.gains[row], forcing.dt),
-            shape,
-            parameters[row],
-            State(counters, rows.clocks[row], rows.states[row]),
-            Output(
-                no_output.path,
-                no_output.modes,
-                no_output.events,
-                no_output.times,
-                no_output.limits,
-                rows.extrema[row],
-                rows.transition_counts[row],
-                rows.dwell_times[row],
-            ),
-            scratch,
+        row_forcing = Forcing(forcing.acceleration, forcing.gains[row], forcing.dt)
+        state = State(counters, rows.clocks[row], rows.states[row])
+        row_output = Output(
+            output.path,
+            output.modes,
+            output.events,
+            output.times,
+            output.limits,
+            rows.extrema[row],
+            rows.transition_counts[row],
+            rows.dwell_times[row],
         )
+        rows.statuses[row] = advance(series, reset, skip, row_forcing, shape, parameters[row], state, row_output, scratch)
         # one step is charged for the call itself, so that rows at rest use up the allowance, too
         steps = counters[STEPS_LEFT] - 1
         segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= forcing.acceleration.shape[1] - 1
-        if rows.statuses[row] != PAUSED or segment_done:
+        if rows.statuses[row] != PAUSED:
+            observe(row_forcing, parameters[row], state, row_output, observed[row])
+        if rows.statuses[row] != PAUSED or segment_done or 2 * counters[N_EVENTS] > output.times.size > 0:
             row += 1
     return row
+
+
+@dataclass(frozen=True)
+class Observer:
+    """Function that observes each trajectory of a batch.
+
+    Parameters
+    ----------
+    observe : compiled function
+        Function with the signature ``OBSERVE`` of :mod:`seisblock.dynamics.model_api`.
+    size : int
+        How many numbers it writes.
+    has_path : bool
+        True to store the path for it.
+    """
+
+    observe: Callable[..., Any]
+    size: int
+    has_path: bool = False
+
+    @cached_property
+    def pointer(self) -> Any:
+        """Function pointer of the function."""
+        return function_pointer(self.observe, OBSERVE)
+
+
+NO_OBSERVER = Observer(observe_nothing, 0)
+
+EVENT_CAPACITY = 1 << 13
+"""Capacity of the event tables of an observer; half of it is available for a trajectory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +143,8 @@ class Ensemble:
         Time spent in each mode: total, and longest interval between two events.
     failed : (m,) array of bool
         Rows whose integration failed; they hold the state at the failure, which is not a valid result.
+    observed : (m, n) array
+        Numbers of the observer; NaN for failed rows and those with too many events to be observed.
     """
 
     model: Model
@@ -121,6 +158,7 @@ class Ensemble:
     transition_counts: IntArray
     dwell_times: FloatArray
     failed: BoolArray
+    observed: FloatArray
 
     @property
     def end_time(self) -> FloatArray:
@@ -145,6 +183,7 @@ def integrate_many(
     start: Instant | Instants = BEGINNING,
     row_ids: IntArray | None = None,
     allow_failures: bool = False,
+    observer: Observer = NO_OBSERVER,
 ) -> Ensemble:
     """Integrate a model under a motion once per row of parameters, without the GIL.
 
@@ -167,6 +206,8 @@ def integrate_many(
         Row numbers in error messages, if the rows are a subset.
     allow_failures : bool
         True to mark failed rows in the result instead of raising an error.
+    observer : Observer
+        For motions that are not long.
 
     Returns
     -------
@@ -197,17 +238,19 @@ def integrate_many(
         np.full(m, PAUSED, dtype=np.int64),
     )
     rows.counters[:, MODE], rows.counters[:, SAMPLE], rows.clocks[:, TAU] = mode, start.sample, start.tau
+    output, observed = _make_output(observer, motion.samples, n_states), np.full((m, observer.size), np.nan)
     # all rows pass one segment before the next is read, so that one segment is in memory
     for segment in motion.segments((scale != 0.0).any(axis=0).tolist()):
         forcing = BatchForcing(segment.acceleration, scale, motion.dt)
         rows.counters[:, SEGMENT_START], rows.counters[:, SAMPLES_AFTER] = segment.first, segment.samples_after
         row = 0
-        work = _no_output(n_states), allocate_scratch(model.shape, n_states, segment.acceleration.shape[0])
+        work = output, allocate_scratch(model.shape, n_states, segment.acceleration.shape[0])
         while row < m:
             check_cancelled()
-            row = integrate_rows(*model.pointers, forcing, model.shape, p, rows, *work, row, STEPS_PER_SLICE)
+            row = integrate_rows(*model.pointers, observer.pointer, forcing, model.shape, p, rows, *work, observed, row, STEPS_PER_SLICE)
     end = Instants(rows.counters[:, SAMPLE], rows.clocks[:, TAU])
     failed: BoolArray = _IS_FAILURE[rows.statuses]
+    observed[failed] = np.nan
     for row in () if allow_failures else np.flatnonzero(failed)[:1]:
         raise SolverError(
             "{name}, row {row}: integration stopped at {at:.6f} s: {failure}",
@@ -228,11 +271,13 @@ def integrate_many(
         rows.transition_counts,
         rows.dwell_times,
         failed,
+        observed,
     )
 
 
-def _no_output(n_states: int) -> Output:
-    """Return an output without rows for path and events."""
-    path, modes, events = np.empty((0, n_states)), np.empty(0, dtype=np.int64), np.empty((0, 4), dtype=np.int64)
-    times, limits = np.empty(0), np.empty((0, 2, n_states))
-    return Output(path, modes, events, times, limits, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))
+def _make_output(observer: Observer, samples: int, n_states: int) -> Output:
+    """Return the output of an observer, without rows where it needs none."""
+    size = samples if observer.has_path else 0
+    tables = allocate_events(EVENT_CAPACITY if observer.size else 0, n_states)
+    path, modes = np.empty((size, n_states)), np.empty(size, dtype=np.int64)
+    return Output(path, modes, *tables, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import MATRIX, READ_ONLY_MATRIX, VECTOR
+from seisblock.dynamics.buffers import FORCING, OUTPUT, STATE
 
 _t = types()
 
@@ -32,6 +33,16 @@ the state at the end, if none lies inside. ``c`` is work space; ``start_time`` i
 def no_skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
     """Return the sample unchanged, for models without a state of rest."""
     return sample
+
+
+OBSERVE = _t.void(FORCING, VECTOR, STATE, OUTPUT, VECTOR)
+"""observe(forcing, p, state, output, observed): writes numbers about a finished trajectory of a batch from its path and events, which the
+next one overwrites."""
+
+
+@kernel(OBSERVE)
+def observe_nothing(forcing, p, state, output, observed):
+    """Write nothing."""
 
 
 OFF = float("inf")

@@ -110,7 +110,7 @@ def rock_predictable_until(block: Block, motion: Motion, options: RockOptions = 
 
     def track(factor: float) -> _Track:
         trajectory = integrate(rock_model.ROCKING, motion, p, options.initial, mode, gains=params.gains(factor))
-        ending = outcome_after_record(trajectory, params)
+        ending = outcome_after_record(trajectory.final_mode, trajectory.final, params)
         fell = trajectory.final_mode == rock_model.OVERTURNED
         theta = float(trajectory.final[rock_model.THETA])
         direction = math.copysign(1.0, theta) if fell else 0 if ending is None else ending.direction

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.results import Phase, make_phases
 from seisblock.dynamics import GuardEvent, Trajectory
 from seisblock.models.rock import model
-from seisblock.models.rock.forces import friction_demand
+from seisblock.models.rock.forces import FrictionDemand, friction_demand
 from seisblock.models.rock.free_rocking import FreeRockingOutcome
 from seisblock.models.rock.params import RockParams
 from seisblock.records import Motion
@@ -99,43 +100,90 @@ def friction_suffices(outcome: RockOutcome, mu: float, gravity: float) -> bool:
     return outcome.max_friction_demand is not None and outcome.max_friction_demand <= mu
 
 
-def build_outcome(params: RockParams, motion: Motion, trajectory: Trajectory, free_outcome: FreeRockingOutcome | None) -> RockOutcome:
-    """Return the outcome from the trajectory during the record and the free rocking after it."""
+class RockRun(NamedTuple):
+    """Result of an integration of a rocking block; times in s after sample 0, NaN without the event.
+
+    Parameters
+    ----------
+    final_mode : int
+    final_theta, end_time : float, rad, s
+    extrema : four floats
+        Largest tilt, its time, smallest tilt, its time.
+    first_start, last_alpha : float, s
+        First start of rocking from rest, and last time at which alpha is exceeded.
+    starts_in_motion : bool
+    impacts : int
+    friction_need : FrictionDemand
+    """
+
+    final_mode: int
+    final_theta: float
+    end_time: float
+    extrema: Sequence[float]
+    first_start: float
+    last_alpha: float
+    starts_in_motion: bool
+    impacts: int
+    friction_need: FrictionDemand
+
+
+def summarize(params: RockParams, motion: Motion, trajectory: Trajectory, free_outcome: FreeRockingOutcome | None) -> RockRun:
+    """Return the result of a single integration."""
     changes = trajectory.events
     source, target = changes.source, changes.target
     starts = changes.time[source == model.REST]
     impacts = ((source == model.TO_RIGHT) | (source == model.TO_LEFT)) & (changes.guard == model.LOWER_BOUND)
     alpha_times = changes.time[(target == model.BEYOND_RIGHT) | (target == model.BEYOND_LEFT)]
+    last_alpha = float(alpha_times[-1]) if alpha_times.size else math.nan
+    mode = trajectory.final_mode
+    falls_in_record = mode == model.OVERTURNED or (
+        free_outcome is not None and free_outcome.overturns and mode not in (model.TO_RIGHT, model.TO_LEFT)
+    )
+    until_s = (last_alpha if alpha_times.size else 0.0) if falls_in_record else math.inf
+    return RockRun(
+        mode,
+        float(trajectory.final[model.THETA]),
+        trajectory.end_time,
+        trajectory.extrema[model.THETA].tolist(),
+        float(starts[0]) if starts.size else math.nan,
+        last_alpha,
+        bool(changes.source[0] if changes else mode != model.REST),
+        int(np.count_nonzero(impacts)),
+        friction_demand(params, motion, trajectory, until_s=until_s),
+    )
+
+
+def build_outcome(params: RockParams, motion: Motion, run: RockRun, free_outcome: FreeRockingOutcome | None) -> RockOutcome:
+    """Return the outcome from the result of the integration over the record and the free rocking after it."""
     aftermath = free_outcome or NO_OVERTURNING
-    overturned = trajectory.final_mode == model.OVERTURNED or aftermath.overturns
-    overturning = trajectory.end_time + (aftermath.overturns_s or 0.0)
+    overturned = run.final_mode == model.OVERTURNED or aftermath.overturns
     alpha_time = None
     if overturned:
-        alpha_time = float(alpha_times[-1]) if alpha_times.size else 0.0
-        if aftermath.overturns and trajectory.final_mode in (model.TO_RIGHT, model.TO_LEFT):
-            alpha_time = trajectory.end_time + (aftermath.passes_alpha_s or 0.0)
-    high, high_s, low, low_s = trajectory.extrema[model.THETA]
+        alpha_time = 0.0 if math.isnan(run.last_alpha) else run.last_alpha
+        if aftermath.overturns and run.final_mode in (model.TO_RIGHT, model.TO_LEFT):
+            alpha_time = run.end_time + (aftermath.passes_alpha_s or 0.0)
+    high, high_s, low, low_s = run.extrema
     max_leans = (max(high, aftermath.max_leans[0]), max(-low, aftermath.max_leans[1]))
     lean = max(max_leans)
     max_time = high_s if lean == high else low_s if lean == -low else None
-    friction_need = friction_demand(params, motion, trajectory, until_s=math.inf if alpha_time is None else alpha_time)
-    has_rocked = bool(starts.size) or not (trajectory.final_mode == model.REST and not changes)
+    has_rocked = run.starts_in_motion or not math.isnan(run.first_start)
 
     def absolute_time(moment: float | None) -> float | None:
-        return None if moment is None else float(motion.start_s + moment)
+        return None if moment is None else motion.start_s + moment
 
     direction = ""
     if overturned:
-        direction = "+x" if (aftermath.direction if free_outcome else trajectory.final[model.THETA]) > 0 else "-x"
+        direction = "+x" if (aftermath.direction if free_outcome else run.final_theta) > 0 else "-x"
+    friction_need = run.friction_need
     return RockOutcome(
         rocks=has_rocked,
-        rocking_start_s=absolute_time(starts[0] if starts.size else 0.0) if has_rocked else None,
-        max_rotation_rad=float(lean),
-        max_rotation_ratio=float(max(lean / alpha for lean, alpha in zip(max_leans, params.alphas, strict=True))),
+        rocking_start_s=absolute_time(0.0 if math.isnan(run.first_start) else run.first_start) if has_rocked else None,
+        max_rotation_rad=lean,
+        max_rotation_ratio=max(lean / alpha for lean, alpha in zip(max_leans, params.alphas, strict=True)),
         max_rotation_s=absolute_time(max_time) if has_rocked else None,
-        impacts=int(np.count_nonzero(impacts)),
+        impacts=run.impacts,
         overturned=overturned,
-        overturning_time_s=absolute_time(overturning) if overturned else None,
+        overturning_time_s=absolute_time(run.end_time + (aftermath.overturns_s or 0.0)) if overturned else None,
         alpha_passed_s=absolute_time(alpha_time),
         overturned_towards=direction,
         decided_after_record=free_outcome is not None,

@@ -10,11 +10,12 @@ from seisblock.bodies.block import Block
 from seisblock.core.errors import ParameterError
 from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Response, Status, make_events
+from seisblock.core.typing import FloatArray
 from seisblock.dynamics import Trajectory, integrate
 from seisblock.models.rock import model
 from seisblock.models.rock.free_rocking import FreeRockingOutcome, free_rocking_outcome
 from seisblock.models.rock.options import RockOptions
-from seisblock.models.rock.outcome import RockOutcome, build_outcome, event_name, phases, warnings
+from seisblock.models.rock.outcome import RockOutcome, build_outcome, event_name, phases, summarize, warnings
 from seisblock.models.rock.params import RockParams, rock_params
 from seisblock.records import Motion
 from seisblock.references import papers
@@ -66,7 +67,8 @@ def solve_rock(block: Block, motion: Motion, options: RockOptions) -> Response[R
     params = rock_params(block, motion, options)
     p = model.parameters(params, motion.dt)
     trajectory = integrate(model.ROCKING, motion, p, options.initial, initial_mode(params, options.initial), gains=params.gains())
-    outcome = build_outcome(params, motion, trajectory, outcome_after_record(trajectory, params))
+    free_outcome = outcome_after_record(trajectory.final_mode, trajectory.final, params)
+    outcome = build_outcome(params, motion, summarize(params, motion, trajectory, free_outcome), free_outcome)
     return Response(
         "rock",
         outcome,
@@ -111,9 +113,9 @@ def initial_mode(params: RockParams, initial: tuple[float, float]) -> int:
     return model.BEYOND_LEFT if -theta > left else model.TO_LEFT
 
 
-def outcome_after_record(trajectory: Trajectory, params: RockParams) -> FreeRockingOutcome | None:
+def outcome_after_record(mode: int, state: FloatArray, params: RockParams) -> FreeRockingOutcome | None:
     """Return the outcome of free rocking after the record, None for a block at rest or overturned at its end."""
-    if trajectory.final_mode in (model.REST, model.OVERTURNED):
+    if mode in (model.REST, model.OVERTURNED):
         return None
-    theta, omega = trajectory.final
+    theta, omega = state
     return free_rocking_outcome(params, float(theta), float(omega))

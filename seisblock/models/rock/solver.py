@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 from seisblock.bodies.block import Block
 from seisblock.bodies.factory import table_restitution
 from seisblock.bodies.from_spec import BLOCK_COLUMNS, rigid_body_from_spec, spec_values
@@ -9,6 +11,7 @@ from seisblock.bodies.table import BodySpec
 from seisblock.core.registry import Solver, SolverBody, ValueMap, register
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
+from seisblock.models.rock.rows import solve_rock_rows
 from seisblock.models.rock.solve import solve_rock
 
 
@@ -35,6 +38,8 @@ SOLVER = register(
         build_body=_build_body,
         event="overturned",
         overturned="overturned",
+        solve_rows=solve_rock_rows,
+        row_options=tuple(field.name for field in fields(RockOptions)),
         threshold=_threshold,
         describe="seisblock.models.rock.describe:describe",
         plot="seisblock.models.rock.plot:figure",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict
 from functools import cached_property
 from typing import Any
 
@@ -47,7 +46,7 @@ class ShakingColumns:
         contact = getattr(body.options, "contact", body.options)
         return {
             "jma_intensity": self._jma_intensity,
-            **asdict(shaking),
+            **vars(shaking),
             "width_m": getattr(body.body, "width", None),
             "height_m": getattr(body.body, "height", None),
             "mu": getattr(contact, "mu", None),

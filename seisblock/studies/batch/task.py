@@ -199,16 +199,25 @@ def _component_rows(record: Record, name: str, plan: Plan, columns: Row, doubts:
         yield {**columns, "component": name, REASON: error.message}
         return
     shaking = ShakingColumns(plan.solver, motion)
-    vectorized = solve_vectorized(plan.model, [body for body in plan.bodies if isinstance(body, SolverBody)], motion)
-    for body in plan.bodies:
+    bodies = [_align(body, motion, plan.model) for body in plan.bodies]
+    vectorized = solve_vectorized(plan.model, [body for body in bodies if isinstance(body, SolverBody)], motion)
+    for body in bodies:
         row = {**columns, "component": motion.name, "body": body.name}
         if isinstance(body, RejectedBody):
             yield {**row, REASON: body.reason}
-        elif body.name in vectorized:
-            scalars, warnings = vectorized[body.name]
-            yield {**row, **scalars, **shaking.row(body), WARNINGS: "; ".join([*doubts, *warnings]) or None}
         else:
-            yield {**row, **_solve_row(shaking, body, plan, doubts)}
+            yield {**row, **_result_row(shaking, body, plan, doubts, vectorized.get(body.name))}
+
+
+def _align(body: SolverBody | RejectedBody, motion: Motion, solver: Solver) -> SolverBody | RejectedBody:
+    """Return a body as it stands towards the motion, with its base projected, or the reason why it cannot."""
+    if isinstance(body, RejectedBody) or solver.spatial:
+        return body
+    try:
+        block = block_for_motion(body.body, motion)
+    except SeisblockError as error:
+        return RejectedBody(body.name, error.message)
+    return body if block is body.body else replace(body, body=block)
 
 
 def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Plan, doubts: Sequence[str]) -> Row:
@@ -224,25 +233,31 @@ def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Pl
         return {**row, REASON: error.message}
     # the base is projected on the azimuth; a scan has its own block in each
     aligned = replace(body, body=body.body.block_toward(float(worst))) if isinstance(body.body, Block) else body
-    scalars = _solve_row(ShakingColumns(plan.solver, motion), aligned, plan, [*doubts, *remarks], is_aligned=isinstance(body.body, Block))
-    return {**row, "component": motion.name, **direction_counts, **scalars}
+    return {
+        **row,
+        "component": motion.name,
+        **direction_counts,
+        **_result_row(ShakingColumns(plan.solver, motion), aligned, plan, [*doubts, *remarks]),
+    }
 
 
-def _solve_row(shaking: ShakingColumns, body: SolverBody, plan: Plan, doubts: Sequence[str], *, is_aligned: bool = False) -> Row:
-    """Return the result of one body under one motion, or the reason of its failure."""
+def _result_row(shaking: ShakingColumns, body: SolverBody, plan: Plan, doubts: Sequence[str], result: RowResult | None = None) -> Row:
+    """Return the result of one body under one motion, solved now unless it is given, or the reason of its failure."""
     model, motion = plan.model, shaking.motion
     try:
-        aligned_body = body if is_aligned or model.spatial else replace(body, body=block_for_motion(body.body, motion))
-        response = model.solve(aligned_body.body, motion, **body.options.keywords())
-        chance = probability_columns(plan.solver, aligned_body, motion, plan.runs, plan.seed) if plan.runs else {}
+        if result is None:
+            response = model.solve(body.body, motion, **body.options.keywords())
+            if response.status == Status.TOO_MANY_EVENTS:
+                return {REASON: response.warnings[0]}
+            result = vars(response.outcome), response.warnings
+        chance = probability_columns(plan.solver, body, motion, plan.runs, plan.seed) if plan.runs else {}
     except SeisblockError as error:
         return {REASON: error.message}
-    if response.status == Status.TOO_MANY_EVENTS:
-        return {REASON: response.warnings[0]}
-    warnings = [*doubts, *response.warnings, *([chance[LEFT_OUT]] if LEFT_OUT in chance else ())]
-    scalars = {name: _to_plain(getattr(response.outcome, name), kind) for name, kind in scalar_fields(model.outcome).items()}
-    chance.pop(LEFT_OUT, None)
-    return {**scalars, **shaking.row(aligned_body), **chance, WARNINGS: "; ".join(warnings) or None}
+    outcome, warnings = result
+    left_out = chance.pop(LEFT_OUT, None)
+    messages = [*doubts, *warnings, *([] if left_out is None else [left_out])]
+    scalars = {name: _to_plain(outcome[name], kind) for name, kind in scalar_fields(model.outcome).items()}
+    return {**scalars, **shaking.row(body), **chance, WARNINGS: "; ".join(messages) or None}
 
 
 def _to_plain(value: Any, kind: type) -> Any:

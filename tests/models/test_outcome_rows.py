@@ -1,0 +1,96 @@
+"""Outcomes of many bodies in one loop: bit by bit those of single runs, by each solver that has such rows."""
+
+import math
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.core.registry import SolverBody, get_solver
+from seisblock.models.respond.options import RespondOptions
+from seisblock.models.rock.options import RockOptions
+from seisblock.records import Motion
+from seisblock.studies.batch.scalar_fields import scalar_fields
+from tests.studies.batch.conftest import shaking
+
+SIZES = [(0.1 + 0.03 * k, 0.6 + 0.1 * (k % 7)) for k in range(30)]
+
+
+def motion(seed, peak, samples=1500, vertical=True):
+    """Return a burst of three components."""
+    _, (along, _, up) = shaking(seed, samples=samples, peak=peak)
+    return Motion.from_arrays(along, 0.01, vertical=2.0 * up if vertical else None, start_s=0.3)
+
+
+def rock_bodies():
+    """Return blocks with options that differ from body to body, among them initial tilts and blocks that lose contact."""
+    for k, (width, height) in enumerate(SIZES):
+        options = RockOptions(
+            linear=k % 5 == 1,
+            vertical=(None, False, 0.5)[k % 3],
+            restitution=None if k % 4 else 0.7,
+            gravity=9.8 if k % 6 else 3.0,
+            initial=(0.02 * (k % 3 - 1), 0.0) if k % 7 == 2 else (0.0, 0.0),
+        )
+        yield SolverBody(f"{k}", Block(width, height, centroid_offset=0.01 * (k % 3)), options)
+
+
+def respond_bodies():
+    """Return blocks that slide, rock, rebound and overturn, with options that differ from body to body."""
+    for k, (width, height) in enumerate(SIZES):
+        options = RespondOptions(
+            mu=0.1 + 0.1 * (k % 9),
+            restitution=(0.0, 0.3, 0.6)[k % 3],
+            rocking_restitution=None if k % 4 else 0.99,
+            vertical=(None, False, 0.5)[k % 3],
+            sensitivity=k % 2 == 0,
+        )
+        yield SolverBody(f"{k}", Block(width, height, centroid_offset=0.01 * (k % 3)), options)
+
+
+@pytest.mark.parametrize(("solver", "bodies"), [("rock", rock_bodies)])
+@pytest.mark.parametrize(("seed", "peak", "vertical"), [(0, 2.0, True), (1, 5.0, False), (2, 8.0, True), (3, 20.0, True)])
+def test_rows_equal_single_runs(solver, bodies, seed, peak, vertical):
+    """Every scalar and every warning, falls during and after the record among them."""
+    model, ground, falls = get_solver(solver), motion(seed, peak, vertical=vertical), set()
+    groups = {}
+    for body in bodies():
+        shared = tuple(sorted((key, repr(value)) for key, value in body.options.keywords().items() if key not in model.row_options))
+        groups.setdefault(shared, []).append(body)
+    for group in groups.values():
+        rows = model.solve_rows(group, ground)
+        assert len(rows) >= len(group) - 2
+        for body in group:
+            single = model.solve(body.body, ground, **body.options.keywords())
+            falls.add(single.outcome.overturned)
+            if body.name in rows:
+                values, warnings = rows[body.name]
+                expected = {name: getattr(single.outcome, name) for name in scalar_fields(model.outcome)}
+                assert {name: values[name] for name in expected} == expected
+                assert tuple(warnings) == tuple(single.warnings)
+    assert falls == ({False} if peak < 3.0 else {False, True})
+
+
+def test_rocking_after_record_continues_in_rows():
+    """A record that ends in motion: free rocking decides, as in the single run."""
+    ground = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    bodies = [SolverBody(f"{k}", Block(0.16 + 0.01 * k, 0.8), RockOptions()) for k in range(12)]
+    rows = get_solver("rock").solve_rows(bodies, ground)
+    after = [values["overturned"] for values, _ in rows.values() if values["decided_after_record"]]
+    assert {True, False} <= set(after)
+    for body in bodies:
+        assert rows[body.name][0] == vars(get_solver("rock").solve(body.body, ground).outcome)
+
+
+def test_friction_demand_by_kernel_equals_dense_evaluation():
+    """Largest abs(H/N) between samples, against the forces at 400 points per sample of a finer motion."""
+    time = np.arange(0.0, 4.0, 0.01)
+    ground = Motion.from_arrays(3.0 * np.sin(2 * math.pi * 1.1 * time), 0.01, vertical=2.0 * np.sin(2 * math.pi * 3.1 * time))
+    fine_time = np.linspace(0.0, time[-1], (time.size - 1) * 400 + 1)
+    fine = Motion.from_arrays(
+        np.interp(fine_time, time, ground.horizontal), 0.01 / 400, vertical=np.interp(fine_time, time, ground.vertical)
+    )
+    solve = get_solver("rock").solve
+    for width in (0.22, 0.25, 0.5):
+        coarse, dense = (solve(Block(width, 0.9), ground_motion).outcome for ground_motion in (ground, fine))
+        assert coarse.max_friction_demand == pytest.approx(dense.max_friction_demand, rel=1e-5)
