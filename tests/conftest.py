@@ -17,6 +17,7 @@ import seisblock
 from seisblock import _jit
 from seisblock.__main__ import GC_THRESHOLD
 from seisblock.validation.case import Case, CaseResult
+from tests.computed_once import computing_once
 from tests.kernels import compile_all
 
 os.environ.setdefault("COLUMNS", "80")
@@ -126,3 +127,10 @@ def evidence(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Case, "run", run_once)
         yield folder
+
+
+@pytest.fixture(scope="module")
+def computed_once():
+    """Compute what the tests of a file repeat once, such as the studies of a command in both languages."""
+    with computing_once():
+        yield

@@ -1,7 +1,6 @@
 """The lines of README.md and of docs/ print, compute and draw what the pages show; those that are shown only could be typed."""
 
 import importlib
-import pickle
 import re
 
 import click
@@ -9,6 +8,8 @@ import pytest
 
 from seisblock.cli import COMMANDS, main
 from tests.pages import FENCED, PAGES, ROOT, changed_figures, lines_of, matches, page_differences
+
+pytestmark = pytest.mark.usefixtures("computed_once")  # a page and its Japanese one print the same results
 
 SLOW = {"docs/guides/fit.md", "docs/guides/secure_objects.md", "docs/ja/museum.md", "docs/trust.md"}
 """Pages whose lines take more than some seconds."""
@@ -22,24 +23,6 @@ FILE_OF_A_RECIPE = "# seisblock/"
 
 RECIPES = {name for name, page in PAGES.items() if f"```python\n{FILE_OF_A_RECIPE}" in page.read_text("utf-8")}
 RUN = {name for name, page in PAGES.items() if {"console", "python"} & {kind for kind, _ in FENCED.findall(page.read_text("utf-8"))}}
-
-
-@pytest.fixture(scope="module", autouse=True)
-def measures_computed_once():
-    """Compute the measures of an object under the same records and options once: the guide and its Japanese page print them."""
-    from seisblock.studies.scenario import secure
-
-    computed, find_measures = {}, secure.find_measures
-
-    def find_once(*args, progress=None, **options):
-        key = pickle.dumps((args, sorted(options.items())))
-        if key not in computed:
-            computed[key] = find_measures(*args, progress=progress, **options)
-        return computed[key]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(secure, "find_measures", find_once)
-        yield
 
 
 @pytest.mark.parametrize(

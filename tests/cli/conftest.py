@@ -2,15 +2,11 @@
 
 import pytest
 
+from tests.lengths import short_scenarios
+
 
 @pytest.fixture
-def few_runs(monkeypatch):
-    """A quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, and fewer runs of each.
-
-    For tests of what `secure` and `scenario` accept and print; guides show the values of all runs.
-    """
-    monkeypatch.setattr("seisblock.studies.scenario.motions.DEFAULT_RECORDS", 10)
-    monkeypatch.setattr("seisblock.studies.scenario.motions.RECORDINGS", ("shafter_1989",))
-    monkeypatch.setattr("seisblock.studies.scenario.hazard.RECORDS_PER_LEVEL", 2)
-    monkeypatch.setattr("seisblock.studies.scenario.assess.MIN_RUNS", 20)
-    monkeypatch.setattr("seisblock.studies.scenario.secure.FULL_RUNS", 40)
+def few_runs():
+    """Take few records and few runs of each for `secure` and `scenario`."""
+    with short_scenarios():
+        yield

@@ -16,6 +16,8 @@ from seisblock.output.text.wrap import display_width
 from tests.i18n.english import english_words
 from tests.lengths import all_but_slow
 
+pytestmark = pytest.mark.usefixtures("computed_once")
+
 MAX_LINES, WIDTH = 40, 80
 
 BLOCK = ("--width", "24cm", "--height", "72cm")

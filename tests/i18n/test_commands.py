@@ -13,7 +13,9 @@ from seisblock.core import i18n
 from seisblock.output.text.wrap import display_width
 from tests.architecture.test_vocabulary import is_polite, japanese_sentences
 from tests.i18n.english import english_words
-from tests.lengths import all_but_slow
+from tests.lengths import all_but_slow, short_scenarios
+
+pytestmark = pytest.mark.usefixtures("computed_once")
 
 WIDTH = 80
 SHORT = ("synthetic_jma.csv", "--window", "25:28")
@@ -228,12 +230,10 @@ def run_in_language(tmp_path_factory):
             answers[line, lang] = CliRunner().invoke(main, ["--lang", lang, *items], env={"COLUMNS": str(WIDTH)})
         return answers[line, lang]
 
-    with pytest.MonkeyPatch.context() as patch:
+    # texts are the point here, not how well the probabilities of `secure` are known
+    with pytest.MonkeyPatch.context() as patch, short_scenarios():
         patch.setattr(i18n, "LOCALE_DIR", folder)
         patch.setattr(locale, "LOCALE_DIR", folder)
-        # texts are the point here, not how well the probabilities of `secure` are known
-        patch.setattr("seisblock.studies.scenario.secure.FULL_RUNS", 40)
-        patch.setattr("seisblock.studies.scenario.assess.MIN_RUNS", 20)
         i18n._load_catalogue.cache_clear()
         yield answer
     i18n._load_catalogue.cache_clear()

@@ -53,6 +53,9 @@ PASS_TOLERANCE = 1e-14
 CONTACT_TOLERANCE = 2e-3
 """Tolerance of the contact velocities over the speed below which the body rests."""
 
+LEVEL = 1e-3
+"""Height over the largest one of a contact, up to which a vertex is on the ground: well above the round-off of heights."""
+
 LARGE_SPEED = 1e6
 """Shift of the normal velocity of a contact that does not act, m/s."""
 
@@ -217,8 +220,10 @@ def midpoint_step(y, h, a0, a1, a2, count, body, scratch):
             contacts[k, 0] = left[0] * x0 + left[1] * x1 + left[2] * x2
             contacts[k, 1] = left[3] * x0 + left[4] * x1 + left[5] * x2
             contacts[k, 2] = left[6] * x0 + left[7] * x1 + left[8] * x2
-            # a vertex above the ground may come down to it within the step, not further
-            contacts[k, 3], contacts[k, 4] = max(scratch.heights[i], 0.0) / h, 0.0
+            # a vertex above the ground may come down to it within the step, not further; round-off of the heights of one face would ask
+            # for velocities that no rigid body has
+            height = scratch.heights[i] if scratch.heights[i] > LEVEL * c[GAP] else 0.0
+            contacts[k, 3], contacts[k, 4] = height / h, 0.0
             if frozen:
                 p0, p1, p2 = impulses[k, 0], impulses[k, 1], impulses[k, 2]
                 momentum[3] += contacts[k, 1] * p2 - contacts[k, 2] * p1
