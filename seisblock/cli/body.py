@@ -172,7 +172,7 @@ def body(
         document(scan_result, directions, step_deg=step, gravity=gravity),
         output,
         tables=lambda: text_output.tables(scan_result, directions, gal=output.gal),
-        csv=lambda path: text_output.write_csv(path, directions),
+        csv=lambda: text_output.csv_columns(directions),
         figure=figure_of("body:figure", scan_result),
     )
 

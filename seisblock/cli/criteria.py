@@ -101,6 +101,6 @@ def criteria(
         document(cards, replace(options, vertical=vertical_acts(motions, vertical))),
         output,
         tables=lambda: text_output.tables(cards, gal=output.gal),
-        csv=lambda path: text_output.write_csv(path, cards),
+        csv=lambda: text_output.csv_columns(cards),
         figure=figure_of("criteria:figure", cards, gal=output.gal),
     )

@@ -155,17 +155,12 @@ def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> 
     acts = vertical_acts((observation.motion for observation in observed), options["vertical"])
     answer = document(result, observed, block, outcomes, vertical=acts, gravity=options["gravity"])
 
-    def csv(path: Path) -> None:
-        from seisblock.output.io.atomic import write_table
-
-        write_table(path, *text_output.csv_columns(result, observed))
-
     write_results(
         answer,
         output,
         tables=lambda: text_output.tables(result, observed, Path(outcomes).name),
         figure=figure_of("fit:fit_figure", result, Path(outcomes).name, gal=output.gal),
-        csv=csv,
+        csv=lambda: text_output.csv_columns(result, observed),
     )
 
 

@@ -224,6 +224,7 @@ def _foreign_options(form: str, *, rigid: bool) -> list[str]:
 def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.infer import INTENSITY_OF_STONES, INTENSITY_OF_VELOCITY, StonesParameters, stones_document
+    from seisblock.report.text import infer as text_output
     from seisblock.report.text.stones import PLACE_COLUMNS, check_stones_file, write_stones
     from seisblock.studies.survey.consistency import consistency_warning
     from seisblock.studies.survey.estimate import estimate_shaking, estimate_warnings, fitted_stones, frequency_contour, stone_groups
@@ -275,24 +276,19 @@ def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: s
         info("wrote {file}", file=str(params["stones"]))
     first_survey, name = surveys[0][1], ", ".join(site.name for site in places)
 
-    def tables() -> Any:
-        from seisblock.report.text.infer import estimate_tables
-
-        return estimate_tables(name, estimates, joint, assumptions, gal=output.gal)
-
     def figure() -> Any:
         from seisblock.report.figures.infer import estimate_figure
 
         selection = [estimate for estimate in estimates if not has_several or estimate.stones.startswith(surveys[0][0])]
         return estimate_figure(surveys[0][0], first_survey, assumptions, selection, gal=output.gal)
 
-    def csv(path: Path) -> None:
-        from seisblock.output.io.atomic import write_table
-        from seisblock.report.text.infer import estimate_csv
-
-        write_table(path, *estimate_csv(line))
-
-    write_results(answer, output, tables=tables, figure=figure, csv=csv)
+    write_results(
+        answer,
+        output,
+        tables=lambda: text_output.estimate_tables(name, estimates, joint, assumptions, gal=output.gal),
+        figure=figure,
+        csv=lambda: text_output.estimate_csv(line),
+    )
 
 
 def _assumptions(params: dict[str, Any]) -> Any:
@@ -314,6 +310,7 @@ def _infer_from_displacement(source: Source, output: OutputOptions, params: dict
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.records._validation import vertical_acts
+    from seisblock.report.text import infer as text_output
     from seisblock.studies.survey.scale_search import scale_factors
 
     if params["slid"] is not None and params["mu"] is None:
@@ -332,19 +329,15 @@ def _infer_from_displacement(source: Source, output: OutputOptions, params: dict
             curves.append((record, factors))
     options = {} if params["slid"] is None else {"vertical": vertical_acts(motions, params["vertical"])}
     answer = document(curves, observed_m=observed, limit=params["limit"], steps=params["steps"], **options)
-
-    def tables() -> Any:
-        from seisblock.report.text.infer import factor_tables
-
-        return factor_tables(curves, gal=output.gal, displacement_kind=N_("displacement") if params["slid"] is None else N_("slip"))
-
-    def csv(path: Path) -> None:
-        from seisblock.output.io.atomic import write_table
-        from seisblock.report.text.infer import factor_csv
-
-        write_table(path, *factor_csv(curves))
-
-    write_results(answer, output, tables=tables, figure=figure_of("infer:factor_figure", curves, gal=output.gal), csv=csv)
+    write_results(
+        answer,
+        output,
+        tables=lambda: text_output.factor_tables(
+            curves, gal=output.gal, displacement_kind=N_("displacement") if params["slid"] is None else N_("slip")
+        ),
+        figure=figure_of("infer:factor_figure", curves, gal=output.gal),
+        csv=lambda: text_output.factor_csv(curves),
+    )
 
 
 def _infer_from_twist(source: Source, output: OutputOptions, params: dict[str, Any]) -> None:
@@ -356,6 +349,7 @@ def _infer_from_twist(source: Source, output: OutputOptions, params: dict[str, A
     from seisblock.models.rigid3d.options import Rigid3dOptions
     from seisblock.records._validation import vertical_acts
     from seisblock.report.json.infer import twist_document
+    from seisblock.report.text import infer as text_output
     from seisblock.studies.survey.twist import infer_twist, pooled_pga
 
     choice = choose_free_standing({**params, "side": None, "mu_kinetic": None, "gal": output.gal})
@@ -394,19 +388,13 @@ def _infer_from_twist(source: Source, output: OutputOptions, params: dict[str, A
         confidence=params["confidence"],
         seed=params["seed"],
     )
-
-    def tables() -> Any:
-        from seisblock.report.text.infer import twist_tables
-
-        return twist_tables(results, station, level=params["confidence"], limit=params["limit"], gal=output.gal)
-
-    def csv(path: Path) -> None:
-        from seisblock.output.io.atomic import write_table
-        from seisblock.report.text.infer import twist_csv
-
-        write_table(path, *twist_csv(results))
-
-    write_results(answer, output, tables=tables, figure=figure_of("infer:twist_figure", results, gal=output.gal), csv=csv)
+    write_results(
+        answer,
+        output,
+        tables=lambda: text_output.twist_tables(results, station, level=params["confidence"], limit=params["limit"], gal=output.gal),
+        figure=figure_of("infer:twist_figure", results, gal=output.gal),
+        csv=lambda: text_output.twist_csv(results),
+    )
 
 
 def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:

@@ -24,6 +24,7 @@ from seisblock.core.limits import MAX_RUNS
 from seisblock.core.registry import solver_names
 
 if TYPE_CHECKING:
+    from seisblock.output.io.history_csv import CsvTable
     from seisblock.studies.map.station_response import StationModel
 SIZES = ("block", "width", "height")
 """Options that select a body."""
@@ -167,12 +168,11 @@ def map(  # noqa: A001 - the command's name
             write_text(html, map_page(stations, model, gal=output.gal, surveys=surveys))
         info("wrote {path}", path=html)
 
-    def table(path: Path) -> None:
-        from seisblock.output.io.atomic import write_table
+    def csv() -> CsvTable:
         from seisblock.studies.map.station_row import station_row
 
         rows = [station_row(answer) for answer in stations.answers]
-        write_table(path, list(rows[0]), (list(row.values()) for row in rows))
+        return list(rows[0]), (list(row.values()) for row in rows)
 
     def tables() -> Iterator[Any]:
         yield from text_output.tables(stations, model, gal=output.gal)
@@ -181,7 +181,7 @@ def map(  # noqa: A001 - the command's name
 
     result = document(stations, model, surveys, has_floor_motion=source.floor is not None)
     write_results(
-        result, output, tables=tables, csv=table, figure=figure_of("stations:figure", stations, model, gal=output.gal, surveys=surveys)
+        result, output, tables=tables, csv=csv, figure=figure_of("stations:figure", stations, model, gal=output.gal, surveys=surveys)
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -99,6 +98,7 @@ def measure(
     from seisblock.measures.summary import conventions_of
     from seisblock.output.units_display import acceleration_unit
     from seisblock.report.json.measure import document
+    from seisblock.report.text import measure as text_output
 
     if threshold["block"] is None:
         reject_without("--block", ["side"])
@@ -111,11 +111,6 @@ def measure(
     rules = conventions_of(records[0], rules)
     answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 
-    def make_tables() -> Any:
-        from seisblock.report.text.measure import tables
-
-        return tables(records, answers, gal=output.gal)
-
     def figure() -> Any:
         from seisblock.report.figures.measure import measure_figure
 
@@ -125,7 +120,13 @@ def measure(
 
     size, unit = acceleration_unit(gal=output.gal)
     info("threshold of the durations: {level:.4g} {unit} ({origin})", level=level / size, unit=unit, origin=origin)
-    write_results(answer, output, tables=make_tables, csv=lambda path: _write_histories(path, records, answers), figure=figure)
+    write_results(
+        answer,
+        output,
+        tables=lambda: text_output.tables(records, answers, gal=output.gal),
+        csv=lambda: text_output.history_table(records, answers),
+        figure=figure,
+    )
 
 
 def _threshold(
@@ -154,10 +155,3 @@ def _threshold(
     from seisblock.measures.summary import DEFAULT_THRESHOLD
 
     return DEFAULT_THRESHOLD, lazy_gettext("default, 0.1 g")
-
-
-def _write_histories(path: Path, records: list[Any], answers: list[Any]) -> None:
-    from seisblock.output.io.atomic import write_table
-    from seisblock.report.text.measure import history_table
-
-    write_table(path, *history_table(records, answers))

@@ -158,6 +158,7 @@ def overturn_rate(
     """
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.overturn_rate import document, parameters_of
+    from seisblock.report.text import overturn_rate as text_output
     from seisblock.report.text.stones import RATE_COLUMNS as STONE_COLUMNS
     from seisblock.report.text.stones import check_stones_file, rate_groups, write_stones
     from seisblock.studies.survey import assessment as study
@@ -206,29 +207,21 @@ def overturn_rate(
         """Return the curve with dowels, empty with results or where none are compared."""
         return study.overturning_curve(dowelled, method, frequencies=frequencies) if dowelled and not results else ()
 
-    def tables() -> Any:
-        from seisblock.report.text.overturn_rate import tables as text_output
-
-        return text_output(stones, results, curve, gal=output.gal, confidence=method.confidence)
-
     def figure() -> Any:
         from seisblock.report.figures.cemetery import overturn_rate_figure
 
         return overturn_rate_figure(stones, results, curve, reinforced_curve(), gal=output.gal)
 
-    def csv(path: Path) -> None:
-        from seisblock.output.io.atomic import write_table
-        from seisblock.report.text.overturn_rate import curve_csv, rate_csv
-
-        if results:
-            write_table(path, *rate_csv(results))
-            return
-        write_table(path, *curve_csv(curve, reinforced_curve() or None))
-
     if params["stones"] is not None:
         write_stones(params["stones"], STONE_COLUMNS, rate_groups(results))
         info("wrote {file}", file=str(params["stones"]))
-    write_results(answer, output, tables=tables, figure=figure, csv=csv)
+    write_results(
+        answer,
+        output,
+        tables=lambda: text_output.tables(stones, results, curve, gal=output.gal, confidence=method.confidence),
+        figure=figure,
+        csv=lambda: text_output.rate_csv(results) if results else text_output.curve_csv(curve, reinforced_curve() or None),
+    )
 
 
 def _default_criterion(source: Source, params: dict[str, Any], *, has_dowels: bool) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import click
@@ -82,7 +81,7 @@ def paper(source: Source, output: OutputOptions, paper: str | None, item: str | 
         document([(chosen_paper, chosen_item, answer)], inputs, records=inputs.records),
         output,
         tables=lambda: text_output.tables(chosen_paper, chosen_item, answer, own=any(given_inputs.values())),
-        csv=lambda path: _write_csv(path, answer),
+        csv=lambda: ([column.key for column in answer.columns], answer.rows),
         figure=figure_of("paper:figure", chosen_paper, chosen_item, answer),
     )
 
@@ -94,10 +93,3 @@ def _records(source: Source) -> tuple[Any, ...]:
     from seisblock.cli.load_records import load_records
 
     return tuple(load_records(source))
-
-
-def _write_csv(path: Path, answer: Any) -> None:
-    """Write the table in SI units."""
-    from seisblock.output.io.atomic import write_table
-
-    write_table(path, [column.key for column in answer.columns], answer.rows)

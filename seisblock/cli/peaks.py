@@ -54,6 +54,6 @@ def write_peaks(result: PeakAssessment, document: Document, output: OutputOption
         document,
         output,
         tables=lambda: text_output.tables(result, gal=output.gal),
-        csv=lambda path: text_output.write_csv(path, result),
+        csv=lambda: text_output.csv_columns(result),
         figure=figure_of("criteria:peaks_figure", result, gal=output.gal),
     )

@@ -86,6 +86,7 @@ def risk(output: OutputOptions, hazard: Path, years: float, stood: float | None,
     the table the curve continues with its end slopes; their contribution is reported.
     """
     from seisblock.report.json.risk import document
+    from seisblock.report.text import risk as text_output
     from seisblock.studies.hazard.risk import find_risk
 
     forms = [params["fragility"] is not None, params["median"] is not None or params["beta"] is not None]
@@ -94,19 +95,12 @@ def risk(output: OutputOptions, hazard: Path, years: float, stood: float | None,
     site, curves = _load_inputs(hazard, params)
     risks = [(fragility, find_risk(fragility.curve, site, years=years, stood_years=stood)) for fragility in curves]
 
-    def tables() -> Any:
-        from seisblock.report.text.risk import tables as text_output
-
-        return text_output(risks, site, gal=output.gal)
-
-    def csv(path: Path) -> None:
-        from seisblock.output.io.atomic import write_table
-        from seisblock.report.text.risk import csv_columns
-
-        write_table(path, *csv_columns(risks, site))
-
     write_results(
-        document(risks, site, hazard.name), output, tables=tables, figure=figure_of("risk:figure", risks, site, gal=output.gal), csv=csv
+        document(risks, site, hazard.name),
+        output,
+        tables=lambda: text_output.tables(risks, site, gal=output.gal),
+        csv=lambda: text_output.csv_columns(risks, site),
+        figure=figure_of("risk:figure", risks, site, gal=output.gal),
     )
 
 

@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from itertools import groupby, tee
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,7 +21,7 @@ from seisblock.cli.progress import progress
 from seisblock.core._display import exact_repr
 from seisblock.core.errors import OutputError, ParameterError, RecordError, SeisblockError
 from seisblock.core.io.checkpoint import Checkpoint, Key, checkpoint_path, lock_checkpoint
-from seisblock.output.io.atomic import byte_order_mark, check_target, read_table, write_table
+from seisblock.output.io.atomic import check_target, read_table, write_table
 from seisblock.output.io.parquet import check_parquet, read_parquet, write_parquet
 from seisblock.output.json.encode import to_json
 from seisblock.readers.discover import expand_names, group_files
@@ -86,8 +87,8 @@ def run_batch(
             rows_of_all = (row for rows in map(journal.rows, keys) for row in tally.add_rows(rows))
             has_answers = any(not row.get(REASON) for key in keys for row in journal.rows(key))
             if has_answers:
-                write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
-                with progress("writing {file}", file=str(out)), byte_order_mark(excel):
+                write = write_parquet if out.suffix.lower() == PARQUET else partial(_write_csv, bom=excel)
+                with progress("writing {file}", file=str(out)):
                     write(out, columns, (row_cells(columns, row) for row in rows_of_all))
             else:
                 deque(rows_of_all, maxlen=0)  # count only: a table without results must not block the corrected call
@@ -220,5 +221,5 @@ def _open_checkpoint(path: Path, plan: Plan, *, resume: bool) -> Iterator[Checkp
         yield journal
 
 
-def _write_csv(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:
-    write_table(path, list(columns), rows)
+def _write_csv(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]], *, bom: bool) -> None:
+    write_table(path, list(columns), rows, bom=bom)

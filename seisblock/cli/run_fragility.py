@@ -89,7 +89,7 @@ def run_study(
         document(study, placed_bodies, parameters, compare=comparison, notes=left_out),
         output,
         tables=lambda: text_output.tables(study, gal=output.gal, compare=comparison),
-        csv=lambda path: write_table(path, *text_output.csv_columns(study)),
+        csv=lambda: text_output.csv_columns(study),
         figure=figure_of("fragility:figure", study, gal=output.gal, compare=comparison),
     )
 

@@ -130,7 +130,7 @@ def scenario(
     from seisblock.bodies.table import read_body_list
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import figure_of, write_results
-    from seisblock.output.io.atomic import check_distinct_outputs, write_table, write_text
+    from seisblock.output.io.atomic import check_distinct_outputs, write_text
     from seisblock.output.io.suffix import check_text_suffix
     from seisblock.output.io.workbook import check_workbook, write_workbook
     from seisblock.report.json.scenario import document
@@ -165,6 +165,7 @@ def scenario(
         document(results, motions, {"mu": mu, "vertical": vertical, "seed": seed, "gravity_m_s2": gravity}, notes=(*motions.notes, *notes)),
         output,
         tables=lambda: text_output.tables(results, motions.label),
-        csv=lambda path: write_table(path, *text_output.csv_columns(results), bom=True),
+        csv=lambda: text_output.csv_columns(results),
+        bom=True,
         figure=figure_of("scenario:figure", results, motions.label),
     )

@@ -114,7 +114,6 @@ def secure(
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import figure_of, write_results
     from seisblock.core.errors import ParameterError
-    from seisblock.output.io.atomic import write_table
     from seisblock.report.json.secure import document
     from seisblock.report.text import secure as text_output
     from seisblock.studies.scenario.secure import find_measures, unresolved_target
@@ -174,7 +173,8 @@ def secure(
         ),
         output,
         tables=lambda: text_output.tables(result, motions.label),
-        csv=lambda path: write_table(path, *text_output.csv_columns(result), bom=True),
+        csv=lambda: text_output.csv_columns(result),
+        bom=True,
         figure=figure_of("secure:figure", result, motions.label),
     )
 

@@ -183,7 +183,6 @@ def _run_study(
     fixed: dict[str, Any],
 ) -> None:
     """Solve all combinations of parameters."""
-    from seisblock.output.io.atomic import write_table
     from seisblock.report.json.slide import study_document
     from seisblock.report.text import slide_study as text_output
     from seisblock.studies.sliding import slide_study, worst_directions
@@ -216,7 +215,7 @@ def _run_study(
         study_document(parameters, pairs, warnings),
         output,
         tables=lambda: text_output.tables(records, points, gal=output.gal),
-        csv=lambda path: write_table(path, *text_output.study_csv(records, points)),
+        csv=lambda: text_output.study_csv(records, points),
         figure=figure_of(
             "slide_study:figure", records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"], gal=output.gal
         ),

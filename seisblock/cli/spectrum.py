@@ -173,7 +173,7 @@ def spectrum(
         document(spectra, kind, applied_options, inset or SHARP_EDGES),
         output,
         tables=lambda: text_output.tables(spectra, kind, _wear_note(inset)),
-        csv=lambda path: text_output.write_csv(path, spectra),
+        csv=lambda: text_output.csv_columns(spectra),
         figure=figure_of("spectrum:figure", spectra, kind, gravity),
     )
 
@@ -230,7 +230,7 @@ def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tupl
         sliding_document(curves, gravity=gravity, vertical=vertical_acts((motion for motion, _ in curves), vertical)),
         output,
         tables=lambda: text_output.tables(curves),
-        csv=lambda path: text_output.write_csv(path, curves),
+        csv=lambda: text_output.csv_columns(curves),
         figure=figure_of("sliding_spectrum:figure", curves),
     )
 
@@ -266,7 +266,7 @@ def _run_modes(
         modes_document(maps, gravity=gravity, restitution=restitution, inset=inset, vertical=vertical_acts(all_motions, vertical)),
         output,
         tables=lambda: text_output.tables(maps, _wear_note(inset)),
-        csv=lambda path: text_output.write_csv(path, maps),
+        csv=lambda: text_output.csv_columns(maps),
         figure=figure_of("mode_map:figure", maps),
     )
 

@@ -312,6 +312,6 @@ def _run_study(
         study_document(study, rigid, record_levels, records, reinforced=reinforced, **study_options),
         output,
         tables=lambda: text_output.tables(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
-        csv=lambda path: text_output.write_csv(study, record_levels, path),
+        csv=lambda: text_output.csv_columns(study, record_levels),
         figure=figure_of("stack_criterion:figure", study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
     )

@@ -170,7 +170,7 @@ def _run_harmonic(source: Source, output: OutputOptions, figure: int | None, par
         harmonic_document(regions),
         output,
         tables=lambda: text_output.tables(regions, all_rows=params["frequency_ratio"] is not None),
-        csv=lambda path: text_output.write_csv(path, regions),
+        csv=lambda: text_output.csv_columns(regions),
         figure=figure_of("uplift_harmonic:harmonic_figure", regions, figure),
     )
 

@@ -65,6 +65,6 @@ def write_variants(document: Document, output: OutputOptions, responses: list[Re
         document,
         output,
         tables=lambda: text_output.tables(responses, extras, gal=output.gal),
-        csv=lambda path: text_output.write_csv(path, responses, extras),
+        csv=lambda: text_output.csv_columns(responses, extras),
         figure=figure_of("variants:figure", responses, extras, gal=output.gal),
     )

@@ -18,7 +18,6 @@ from seisblock.core.errors import OutputError
 from seisblock.core.i18n import escape_control, format_share, get_locale, gettext, use_locale
 from seisblock.core.registry import get_solver
 from seisblock.core.results import Response
-from seisblock.output.io.atomic import byte_order_mark
 from seisblock.output.json.encode import to_json
 from seisblock.output.json.schema import Document
 
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from seisblock.output.animation.render import AnimationOptions
+    from seisblock.output.io.history_csv import CsvTable
 
 
 AT_REST = ("rest", "stick")
@@ -47,7 +47,8 @@ def write_results(
     *,
     tables: Callable[[], Iterable[Any]],
     responses: Sequence[Response[Any]] = (),
-    csv: Callable[[Path], None] | None = None,
+    csv: Callable[[], CsvTable] | None = None,
+    bom: bool = False,
     figure: Callable[[], Figure] | None = None,
     animation: Callable[[Path, AnimationOptions], None] | None = None,
     probability: float | None = None,
@@ -64,7 +65,9 @@ def write_results(
     responses : sequence of Response
         Time histories for ``--csv``.
     csv : callable
-        Writes the file of ``--csv`` if it does not hold time histories.
+        Returns the table of ``--csv`` if it does not hold time histories.
+    bom : bool
+        Whether that table begins with a byte order mark without ``--excel``, too.
     figure : callable
         Returns the matplotlib Figure of ``--plot``, default that of the responses.
     animation : callable
@@ -87,17 +90,17 @@ def write_results(
     if STDOUT in (output.csv, output.plot):
         print_default_record(err=True)
     if output.csv is not None:
-        from seisblock.output.io.history_csv import write_histories
+        from seisblock.output.io.atomic import write_table
+        from seisblock.output.io.history_csv import history_table
 
-        def write(path: Path) -> None:
-            with byte_order_mark(output.excel):
-                csv(path) if csv is not None else write_histories(path, responses)
-
+        if csv is None and not responses:
+            raise OutputError("cannot write {path}: no time history available", path=output.csv)
+        table = history_table(responses) if csv is None else csv()
         if output.csv == STDOUT:
-            _to_stdout(write)
+            _to_stdout(partial(write_table, header=table[0], rows=table[1], bom=bom or output.excel))
             return
         with progress("writing {file}", file=str(output.csv)):
-            write(output.csv)
+            write_table(output.csv, *table, bom=bom or output.excel)
         info("wrote {file}", file=str(output.csv))
     if output.animate is not None and animation is not None:
         phases = responses[0].phases if responses else ()

@@ -10,7 +10,6 @@ import secrets
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextvars import ContextVar
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -31,8 +30,6 @@ FIGURE_SUFFIXES, ANIMATION_SUFFIXES = (".png", ".svg", ".pdf"), (".gif", ".mp4",
 
 TIME_DECIMALS = 9
 """Decimals of sample times, s; further digits are round-off."""
-
-_byte_order_mark: ContextVar[bool] = ContextVar("byte_order_mark", default=False)
 
 ENCODING_ERRORS = "backslashreplace"
 """Error handler for bytes of file names that are not UTF-8."""
@@ -177,19 +174,9 @@ def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
     return paths
 
 
-@contextlib.contextmanager
-def byte_order_mark(enabled: bool) -> Iterator[None]:
-    """Begin CSV files written inside the context with a byte order mark, from which Excel knows UTF-8."""
-    token = _byte_order_mark.set(enabled or _byte_order_mark.get())
-    try:
-        yield
-    finally:
-        _byte_order_mark.reset(token)
-
-
 def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence[Any]], *, bom: bool = False) -> None:
-    """Write rows as CSV at full precision, with a byte order mark for Excel if `bom`; text like a formula is escaped."""
-    encoding = "utf-8-sig" if bom or _byte_order_mark.get() else "utf-8"
+    """Write rows as CSV at full precision, with a byte order mark by which Excel knows UTF-8 if `bom`; text like a formula is escaped."""
+    encoding = "utf-8-sig" if bom else "utf-8"
     with atomic_write(path) as temporary, temporary.open("w", encoding=encoding, errors=ENCODING_ERRORS, newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(header)

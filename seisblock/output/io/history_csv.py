@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 
-from seisblock.core.errors import OutputError
 from seisblock.core.results import Response
-from seisblock.output.io.atomic import normalize_zeros, write_table
+from seisblock.output.io.atomic import normalize_zeros
 from seisblock.records import Record
 
 Item = TypeVar("Item")
+
+CsvTable = tuple[Sequence[str], Iterable[Sequence[Any]]]
+"""Header and rows of a CSV file."""
 
 CHUNK_ROWS = 2**14
 """Rows of a time history that are formatted at a time."""
 
 
-def concat_tables(header: Sequence[str], tables: Sequence[Iterable[Sequence[Any]]]) -> tuple[list[str], Iterator[list[Any]]]:
+def concat_tables(header: Sequence[str], tables: Sequence[Iterable[Sequence[Any]]]) -> CsvTable:
     """Return header and rows of concatenated tables, one per record; several tables get a column ``record_index``."""
     has_index = len(tables) > 1
     rows = ([*([index] if has_index else []), *row] for index, table in enumerate(tables) for row in table)
@@ -34,28 +35,25 @@ def group_by_record(items: Iterable[Item], record_of: Callable[[Item], Record | 
     return list(parts.values())
 
 
-def write_by_record(
-    path: Path | str,
+def table_by_record(
     header: Sequence[str],
     items: Iterable[Item],
     record_of: Callable[[Item], Record | None],
     rows_of: Callable[[Item], Iterable[Sequence[Any]]],
-) -> None:
-    """Write rows as CSV grouped by record; several records get a column ``record_index``."""
+) -> CsvTable:
+    """Return header and rows grouped by record; several records get a column ``record_index``."""
     tables = [(row for item in part for row in rows_of(item)) for part in group_by_record(items, record_of)]
-    write_table(path, *concat_tables(header, tables))
+    return concat_tables(header, tables)
 
 
-def write_histories(path: Path | str, responses: Sequence[Response[Any]]) -> None:
-    """Write the time histories of responses as CSV, concatenated: component, channels, phase.
+def history_table(responses: Sequence[Response[Any]]) -> CsvTable:
+    """Return the time histories of responses, concatenated: component, channels, phase.
 
     Rows are the samples and both sides of every event, at full precision. Several records get a first column ``record_index``.
     """
-    if not responses:
-        raise OutputError("cannot write {path}: no time history available", path=path)
     names = list(dict.fromkeys(name for response in responses for name in response.to_columns()))
     header = ["component", *names, "phase"]
-    write_by_record(path, header, responses, lambda response: response.motion.record, lambda response: _history_rows(response, names))
+    return table_by_record(header, responses, lambda response: response.motion.record, lambda response: _history_rows(response, names))
 
 
 def _history_rows(response: Response[Any], names: Sequence[str]) -> Iterator[Sequence[Any]]:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.scan.azimuths import ScanAzimuth
 from seisblock.bodies.scan.body import min_slenderness
 from seisblock.bodies.scan.scan import Scan
 from seisblock.core.i18n import N_, gettext
-from seisblock.output.io.atomic import write_table
+from seisblock.output.io.history_csv import CsvTable
 from seisblock.output.text.tables import Part, acceleration_cell, format_fixed, format_number, styled_line, table
 from seisblock.output.units_display import acceleration_unit, format_length, length_cell, length_unit
 
@@ -76,7 +75,7 @@ def _scan_rows(scan: Scan, *, gal: bool) -> Iterator[tuple[str, list[str]]]:
     yield N_("  inset, tolerance"), [f"{format_length(body.inset_m, unit)}, {format_length(scan.tolerance, unit)}"]
 
 
-def write_csv(path: Path, directions: Sequence[ScanAzimuth]) -> None:
-    """Write the values by azimuth as CSV, SI units."""
+def csv_columns(directions: Sequence[ScanAzimuth]) -> CsvTable:
+    """Return the values by azimuth, SI units."""
     names = list(vars(directions[0]))
-    write_table(path, names, ([getattr(direction, name) for name in names] for direction in directions))
+    return names, ([getattr(direction, name) for name in names] for direction in directions)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 from rich.text import Text
@@ -14,7 +13,7 @@ from seisblock.criteria.compare import ACCELERATION, CriterionResult, unique_cri
 from seisblock.models.respond.describe import outcome_text
 from seisblock.models.rock.describe import verdict
 from seisblock.output.describe_wear import describe_edges
-from seisblock.output.io.history_csv import write_by_record
+from seisblock.output.io.history_csv import CsvTable, table_by_record
 from seisblock.output.text.shaking import shaking_text
 from seisblock.output.text.tables import DASH, Part, format_number, format_range, group_answers, side_by_side, styled_line, table
 from seisblock.output.units_display import acceleration_unit, velocity_unit
@@ -164,10 +163,10 @@ def _ratio_cell(row: CriterionResult, card: CriteriaComparison) -> str:
     return f"{format_ratio(row)} {gettext('yes') if row.overturns else gettext('no')}{mark}"
 
 
-def write_csv(path: Path, cards: Sequence[CriteriaComparison]) -> None:
-    """Write all rows as CSV, SI; for several records the first column is the record index."""
+def csv_columns(cards: Sequence[CriteriaComparison]) -> CsvTable:
+    """Return all rows, SI; for several records the first column is the record index."""
     header = ["component", "criterion", "where", "unit", "frequency", "frequency_hz", "threshold", "demand", "overturns", "simulated"]
-    write_by_record(path, header, cards, lambda card: card.record, _csv_rows)
+    return table_by_record(header, cards, lambda card: card.record, _csv_rows)
 
 
 def _csv_rows(card: CriteriaComparison) -> Iterator[list[Any]]:

@@ -15,7 +15,7 @@ from seisblock.core.typing import FloatArray
 from seisblock.measures import FilterRange, RecordMeasures
 from seisblock.measures.summary import velocity_history
 from seisblock.output.io.atomic import normalize_zeros
-from seisblock.output.io.history_csv import CHUNK_ROWS, concat_tables
+from seisblock.output.io.history_csv import CHUNK_ROWS, CsvTable, concat_tables
 from seisblock.output.text.tables import (
     acceleration_cell,
     format_acceleration,
@@ -173,7 +173,7 @@ def filter_range_text(filter_range: FilterRange, *, gal: bool) -> str:
     )
 
 
-def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) -> tuple[list[str], Iterator[list[Any]]]:
+def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) -> CsvTable:
     """Return heading and rows of a CSV file: time, then acceleration, velocity and displacement of each component.
 
     Acceleration is as measured; velocity and displacement stand on the baseline of PGV and PGD. Several records stand one

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from rich.text import Text
 
 from seisblock.core.i18n import N_, format_share, gettext, join_list, join_sentences
 from seisblock.criteria.initiation import Mode
-from seisblock.output.io.history_csv import write_by_record
+from seisblock.output.io.history_csv import CsvTable, table_by_record
 from seisblock.output.text.tables import Part, details, group_answers, styled_line, table
 from seisblock.records import Motion
 from seisblock.report.text.spectrum import rows_per_table, shorten, thin_indices
@@ -114,10 +113,10 @@ def _title(motion: Motion, mode_map: ModeMap) -> str:
     return gettext(text, name=motion.name, size=mode_map.size_m[0], ratio=mode_map.b_over_h[0])
 
 
-def write_csv(path: Path, maps: Maps) -> None:
-    """Write every cell as a row of CSV, SI; with the record index for several records."""
+def csv_columns(maps: Maps) -> CsvTable:
+    """Return a row for every cell, SI; with the record index for several records."""
     header = ["component", "size_m", "b_over_h", "mu", "mode", "max_rotation_ratio", "slip_path_m", "final_displacement_m"]
-    write_by_record(path, header, maps, lambda pair: pair[0].record, lambda pair: _rows(*pair))
+    return table_by_record(header, maps, lambda pair: pair[0].record, lambda pair: _rows(*pair))
 
 
 def _rows(motion: Motion, mode_map: ModeMap) -> Iterator[list[Any]]:

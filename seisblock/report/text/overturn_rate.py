@@ -8,7 +8,7 @@ from typing import Any
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.core.i18n import N_, format_percent, gettext
-from seisblock.output.io.history_csv import concat_tables
+from seisblock.output.io.history_csv import CsvTable, concat_tables
 from seisblock.output.text.tables import (
     DASH,
     Part,
@@ -242,7 +242,7 @@ def curve_csv(curve: Sequence[CurvePoint], reinforced: Sequence[CurvePoint] | No
     return header, rows
 
 
-def rate_csv(groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]]) -> tuple[list[str], Iterator[list[Any]]]:
+def rate_csv(groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]]) -> CsvTable:
     """Return header and rows of ``--csv`` of given shakings: one row each, SI, with the effect of dowels."""
     header = [*RATE_COLUMNS, "rate_low", "rate_high"]
     has_reinforced = any(result.reinforced is not None for _, results in groups for result in results)

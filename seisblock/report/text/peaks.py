@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from seisblock.core.i18n import format_share, gettext
 from seisblock.criteria.compare import ACCELERATION
-from seisblock.output.io.atomic import write_table
+from seisblock.output.io.history_csv import CsvTable
 from seisblock.output.text.tables import format_number, format_share_interval, styled_line, table
 from seisblock.output.units_display import acceleration_unit, velocity_unit
 from seisblock.report.text.criteria import format_ratio, formula_text
@@ -51,7 +50,7 @@ def tables(result: PeakAssessment, *, gal: bool) -> Iterator[Any]:
     yield table("", [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio")], rows, caption=caption)
 
 
-def write_csv(path: Path, result: PeakAssessment) -> None:
-    """Write all criteria as CSV, SI."""
+def csv_columns(result: PeakAssessment) -> CsvTable:
+    """Return all criteria, SI."""
     header = ["criterion", "where", "unit", "frequency_hz", "threshold", "demand", "overturns"]
-    write_table(path, header, ([getattr(row, name) for name in header] for row in result.rows))
+    return header, ([getattr(row, name) for name in header] for row in result.rows)

@@ -11,7 +11,7 @@ import numpy as np
 from rich.text import Text
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.output.io.history_csv import concat_tables
+from seisblock.output.io.history_csv import CsvTable, concat_tables
 from seisblock.output.text.tables import DASH, details, group_answers, styled_line, table
 from seisblock.output.units_display import Unit, format_length, length_cell, length_unit
 from seisblock.records import Record
@@ -62,7 +62,7 @@ def azimuth_table(sweep: Points, *, gal: bool = True) -> Iterator[Any]:
         yield details(table(gettext("All azimuths"), [gettext(heading, unit=unit.name) for heading in headings], rows))
 
 
-def study_csv(records: Sequence[Record], studies: Sequence[Points]) -> tuple[list[str], Iterator[list[Any]]]:
+def study_csv(records: Sequence[Record], studies: Sequence[Points]) -> CsvTable:
     """Return heading and rows of a CSV file: one row per point with every key."""
     header = [key for key in SLIDE_POINT.__struct_fields__ if key != "record_index"]
     return concat_tables(header, [[[getattr(entry, key) for key in header] for entry in map(point_entry, points)] for points in studies])

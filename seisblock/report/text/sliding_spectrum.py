@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.output.io.history_csv import write_by_record
+from seisblock.output.io.history_csv import CsvTable, table_by_record
 from seisblock.output.text.tables import group_answers, styled_line, table
 from seisblock.output.units_display import format_length, length_cell, length_unit
 from seisblock.records import Motion
@@ -58,11 +57,10 @@ def verdict(name: str, points: Sequence[SlidePoint]) -> str:
     )
 
 
-def write_csv(path: Path, curves: Curves) -> None:
-    """Write every point as a row of CSV, SI; with the record index for several records."""
+def csv_columns(curves: Curves) -> CsvTable:
+    """Return a row for every point, SI; with the record index for several records."""
     header = ["component", "mu", "max_slip_m", "residual_slip_m"]
-    write_by_record(
-        path,
+    return table_by_record(
         header,
         curves,
         lambda pair: pair[0].record,

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from seisblock.core.i18n import N_, format_share, gettext
 from seisblock.core.typing import IntArray
-from seisblock.output.io.history_csv import write_by_record
+from seisblock.output.io.history_csv import CsvTable, table_by_record
 from seisblock.output.text.tables import DASH, Part, group_answers, styled_line, table
 from seisblock.records import Motion
 from seisblock.studies.rocking.spectrum import RockingSpectrum
@@ -106,8 +105,8 @@ def thin_indices(count: int, max_count: int) -> IntArray:
     return np.unique(np.linspace(0, count - 1, min(count, max_count)).round().astype(np.int64))
 
 
-def write_csv(path: Path, spectra: Spectra) -> None:
-    """Write every block as a row of CSV, SI; with share and worst azimuth for azimuth sweeps, with the index for several records."""
+def csv_columns(spectra: Spectra) -> CsvTable:
+    """Return a row for every block, SI; with share and worst azimuth for azimuth sweeps, with the index for several records."""
     has_azimuths = any(spectrum.azimuths_deg is not None for _, spectrum in spectra)
     header = [
         "component",
@@ -119,7 +118,7 @@ def write_csv(path: Path, spectra: Spectra) -> None:
         "overturned",
         *(["overturning_rate", "worst_azimuth_deg"] if has_azimuths else []),
     ]
-    write_by_record(path, header, spectra, lambda pair: pair[0].record, lambda pair: _rows(*pair))
+    return table_by_record(header, spectra, lambda pair: pair[0].record, lambda pair: _rows(*pair))
 
 
 def _rows(motion: Motion, spectrum: RockingSpectrum) -> Iterator[list[Any]]:

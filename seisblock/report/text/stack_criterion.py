@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from seisblock.core.i18n import gettext
 from seisblock.criteria.gravestones import GravestoneFit, furukawa_fit, overturning_level, overturning_ratio
-from seisblock.output.io.atomic import write_table
+from seisblock.output.io.history_csv import CsvTable
 from seisblock.output.text.tables import acceleration_cell, format_acceleration, format_number, styled_line, table
 from seisblock.output.units_display import acceleration_unit
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, study_frequencies
@@ -54,16 +53,13 @@ def _fit_sentence(study: CriterionStudy, fit: GravestoneFit, equation: str, *, g
     )
 
 
-def write_csv(study: CriterionStudy, scaled_records: ScaledRecords, path: Path) -> None:
-    """Write the thresholds as CSV, SI; with scaled records the first column is the motion."""
+def csv_columns(study: CriterionStudy, scaled_records: ScaledRecords) -> CsvTable:
+    """Return the thresholds, SI; with scaled records the first column is the motion."""
     header = ["frequency_hz", "pga_m_s2", "height_over_width", "fallen"]
     if not scaled_records:
-        write_table(path, header, map(_csv_row, study.thresholds))
-        return
+        return header, map(_csv_row, study.thresholds)
     groups = {"sine": study.thresholds, **scaled_records}
-    write_table(
-        path, ["motion", *header], ([name, *_csv_row(threshold)] for name, thresholds in groups.items() for threshold in thresholds)
-    )
+    return ["motion", *header], ([name, *_csv_row(threshold)] for name, thresholds in groups.items() for threshold in thresholds)
 
 
 def _csv_row(threshold: Threshold) -> list[str | float]:

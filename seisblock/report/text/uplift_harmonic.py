@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.output.io.atomic import write_table
+from seisblock.output.io.history_csv import CsvTable
 from seisblock.output.text.tables import Part, details, styled_line, table
 from seisblock.report.json.uplift_study import RATIO_KEYS
 from seisblock.studies.uplift_regions import UpliftRegion
@@ -93,14 +92,11 @@ def _corner_text(corners: Sequence[int]) -> str:
     return gettext("any") if len(corners) == 4 else " ".join(str(corner) for corner in corners)
 
 
-def write_csv(path: Path, regions: Sequence[UpliftRegion]) -> None:
-    """Write the curves as CSV, one below the other."""
-    write_table(
-        path,
-        [*RATIO_KEYS.values(), "frequency_ratio", "acceleration_ratio"],
-        (
-            [*region.ratios.values(), float(r), float(a)]
-            for region in regions
-            for r, a in zip(region.frequency_ratio, region.acceleration_ratio, strict=True)
-        ),
+def csv_columns(regions: Sequence[UpliftRegion]) -> CsvTable:
+    """Return the curves, one below the other."""
+    rows = (
+        [*region.ratios.values(), float(r), float(a)]
+        for region in regions
+        for r, a in zip(region.frequency_ratio, region.acceleration_ratio, strict=True)
     )
+    return [*RATIO_KEYS.values(), "frequency_ratio", "acceleration_ratio"], rows

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from seisblock.core.i18n import gettext
 from seisblock.core.results import Response
-from seisblock.output.io.atomic import write_table
+from seisblock.output.io.history_csv import CsvTable
 from seisblock.output.text.tables import DASH, format_share_interval, record_line, side_by_side, styled_line, tilt_ratio_cell
 from seisblock.output.units_display import Unit, length_cell, length_unit
 from seisblock.report.json.assessment import VARIANT_NAMES
@@ -101,8 +100,8 @@ def _assessment_rows(objects: Sequence[Assessment | None]) -> list[list[str]]:
     ]
 
 
-def write_csv(path: Path, responses: Sequence[Response[Any]], extras: Extras) -> None:
-    """Write one row per record, variant and direction as CSV, SI."""
+def csv_columns(responses: Sequence[Response[Any]], extras: Extras) -> CsvTable:
+    """Return one row per record, variant and direction, SI."""
     varied = list(extras[0]["variant"])
     shaken = [
         "overturned",
@@ -120,4 +119,4 @@ def write_csv(path: Path, responses: Sequence[Response[Any]], extras: Extras) ->
             part = extra["assessment"].assessment
             row += [part.overturning_probability, part.moved_probability, part.class_]
         rows.append(row)
-    write_table(path, header, rows)
+    return header, rows
