@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from seisblock.bodies.scan.mass_properties import mass_properties
 from seisblock.bodies.scan.mesh import Mesh, read_mesh
 from seisblock.bodies.scan.polygon import convex_hull
-from seisblock.bodies.scan.resting_pose import find_resting_pose
+from seisblock.bodies.scan.scan import find_resting_pose, mass_properties
 from tests.bodies.meshes import frustum, write_stl
 
 SIDES = 250_000

@@ -16,11 +16,10 @@ from seisblock.bodies.factory import block_for_motion, load_block
 from seisblock.bodies.scan.azimuths import scan_azimuths
 from seisblock.bodies.scan.body import ScannedBody, min_slenderness
 from seisblock.bodies.scan.hull import HULL_TOLERANCE_SHARE, hull_vertices
-from seisblock.bodies.scan.mass_properties import mass_properties
 from seisblock.bodies.scan.mesh import AXIS_ROTATIONS, Mesh, read_mesh
 from seisblock.bodies.scan.polygon import convex_hull, interior_distance, min_width, offset_polygon, support_distance
 from seisblock.bodies.scan.qc import scan_qc_messages
-from seisblock.bodies.scan.scan import scan_body
+from seisblock.bodies.scan.scan import mass_properties, scan_body
 from seisblock.bodies.scan.toml import load_scan, scan_from_table, scan_to_toml
 from seisblock.bodies.toml import read_body_toml
 from seisblock.core.errors import BodyError, ComponentError, InputError

@@ -8,7 +8,7 @@ from scipy.signal import butter, sosfilt
 
 from seisblock.measures import frequency, peaks, spectra
 from seisblock.measures.baseline import ground_history
-from seisblock.records import butterworth, filters, integrals
+from seisblock.records import filters, integrals
 
 DT = 0.01
 ROW = np.random.default_rng(5).standard_normal(5000) + 0.2
@@ -17,7 +17,7 @@ ROW = np.random.default_rng(5).standard_normal(5000) + 0.2
 @pytest.fixture
 def small_pieces(monkeypatch):
     """Let a piece be some dozens of samples, which divide no length here."""
-    for module in (butterworth, filters, integrals, frequency):
+    for module in (filters, integrals, frequency):
         monkeypatch.setattr(module, "CHUNK_SIZE", 77)
 
 
@@ -66,7 +66,7 @@ def test_chunked_highpass_equals_scipy(small_pieces, hz):
 def test_butterworth_sections_equal_scipy(dt, share):
     """The design by hand is that of scipy, from a corner far below half the sampling rate to one that touches it."""
     hz = share * 0.5 / dt
-    result = np.array([[gain, -2.0 * gain, gain, 1.0, *rest] for gain, *rest in butterworth.highpass_sections(dt, hz)])
+    result = np.array([[gain, -2.0 * gain, gain, 1.0, *rest] for gain, *rest in filters.highpass_sections(dt, hz)])
     np.testing.assert_allclose(result, butter(4, hz, "highpass", fs=1.0 / dt, output="sos"), rtol=0.0, atol=4e-15)
 
 

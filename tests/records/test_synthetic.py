@@ -15,8 +15,7 @@ from seisblock.cli import main
 from seisblock.core.errors import InputError, ParameterError
 from seisblock.measures.spectra import response_spectrum
 from seisblock.records import process
-from seisblock.records.synthetic.point_source import PointSource
-from seisblock.records.synthetic.suite import parse_suite, synthetic_suite
+from seisblock.records.synthetic.suite import PointSource, parse_suite, synthetic_suite
 from seisblock.report.exports.knet import write_knet
 
 INDEPENDENT = 1e-5

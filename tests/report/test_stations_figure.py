@@ -10,8 +10,7 @@ from seisblock.bodies.factory import load_block
 from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Preparation
 from seisblock.records.site import great_circle_km
-from seisblock.report.figures.label_placement import overlap_area
-from seisblock.report.figures.stations import figure, map_title
+from seisblock.report.figures.stations import figure, map_title, overlap_area
 from seisblock.studies.assessment import Assessment, classify
 from seisblock.studies.map.station_response import StationBody, StationCemetery, StationResult
 from seisblock.studies.map.stations import Stations

@@ -32,7 +32,7 @@ takes besides; in a day 0.55 GB, 0.73 GB, and 0.55 GB above the record's 0.41 GB
 def lower_long_limits(monkeypatch):
     """Let both lengths count as long."""
     for size in (
-        "records.fft_filter.LONG_TRANSFORM",
+        "records.seismic_intensity.LONG_TRANSFORM",
         "measures.spectra.LONG_TRANSFORM",
         "records.qc_spikes.BLOCK",
         "records.qc_spikes.PIECE",
@@ -147,8 +147,8 @@ def test_intensity_is_independent_of_transform_order(samples, monkeypatch):
     """As a table of as many lines as columns, of a few columns, of one (no divisor) and at once: to the round-off."""
     record = make_record(samples)
     in_pieces = jma_intensity(record)
-    monkeypatch.setattr("seisblock.records.fft_filter.LONG_TRANSFORM", 2**21)
-    monkeypatch.setattr("seisblock.records.fft_filter.CHUNK_SIZE", 2**21)
+    monkeypatch.setattr("seisblock.records.seismic_intensity.LONG_TRANSFORM", 2**21)
+    monkeypatch.setattr("seisblock.records.seismic_intensity.CHUNK_SIZE", 2**21)
     assert in_pieces == pytest.approx(jma_intensity(record), rel=1e-13)
 
 

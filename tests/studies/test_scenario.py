@@ -37,7 +37,6 @@ from seisblock.studies.scenario import peaks, runs
 from seisblock.studies.scenario.assess import CLASSES, ObjectRisk, assess_scenario, scenario_bodies, versions_for
 from seisblock.studies.scenario.hazard import hazard_suite
 from seisblock.studies.scenario.motions import ScenarioTarget, motion_pairs, scenario_suite
-from seisblock.studies.scenario.restraint import case_demands, restraint_demand
 from seisblock.studies.scenario.runs import VERSIONS, draw_cases, run_cases
 from seisblock.studies.scenario.secure import (
     BASE_MASS,
@@ -47,8 +46,10 @@ from seisblock.studies.scenario.secure import (
     WIDTH,
     Measure,
     Security,
+    case_demands,
     changed_body,
     find_measures,
+    restraint_demand,
     unresolved_target,
     with_base_mass,
 )

@@ -14,9 +14,8 @@ import numpy as np
 import pytest
 
 from seisblock.core.errors import RecordError, RecordFormatError, RecordNotFoundError
-from seisblock.readers import member_buffer, read, source
-from seisblock.readers.discover import iter_records
-from seisblock.readers.member_buffer import MemberBuffer
+from seisblock.readers import discover, read, source
+from seisblock.readers.discover import MemberBuffer, iter_records
 from seisblock.readers.options import ReadOptions
 from seisblock.readers.read import read_source
 from seisblock.samples import sample_directory
@@ -191,7 +190,7 @@ def test_full_temporary_folder_is_reported(folder, monkeypatch):
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
             return super().write(data)
 
-    monkeypatch.setattr(member_buffer.tempfile, "SpooledTemporaryFile", lambda size: Full())
+    monkeypatch.setattr(discover.tempfile, "SpooledTemporaryFile", lambda size: Full())
     *_, failed = record_sources(bundle)[:1]
     with pytest.raises(RecordError, match=r"cannot write a temporary file.*No space left"):
         read_source(failed, ReadOptions())
