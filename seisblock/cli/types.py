@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import Any, Generic, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
 
-from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
+from seisblock.bodies.edge_wear import parse_edge_wear
 from seisblock.cli.command import Finite
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.core.errors import InputError
@@ -17,13 +18,16 @@ from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.jma_scale import parse_jma_intensity
 from seisblock.core.limits import MAX_JOINT_POINTS, MAX_VALUES, check_limit
 from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_mass, to_halfwidth
-from seisblock.records.floor import Storey, parse_storey
+from seisblock.records.floor import parse_storey
 
 MIN_SIDE, MAX_SIDE = 0.04, 1.2
 """Smallest and largest side of a figure, m."""
 
 SIZES = (N_("width"), N_("height"), N_("depth"))
 """Parameters named in errors of their lengths; other options are named by click alone."""
+
+
+Parameter = TypeVar("Parameter")
 
 
 class Count(click.ParamType):  # type: ignore[type-arg]
@@ -64,6 +68,29 @@ class FormatType(click.types.StringParamType):
         return [CompletionItem(name) for name in self.names if name.startswith(incomplete.upper())]
 
 
+class Parsed(click.ParamType, Generic[Parameter]):  # type: ignore[type-arg]
+    """Parameter of a parser of the library, whose error becomes that of the option.
+
+    Parameters
+    ----------
+    name : str
+    parse : callable
+        ``parse(text, parameter name) -> value``.
+    """
+
+    def __init__(self, name: str, parse: Callable[[str, str], Parameter]) -> None:
+        self.name, self._parse = name, parse
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Parameter:
+        """Return the value of a text; a default, or what is already converted, as it is."""
+        if not isinstance(value, str):
+            return value  # type: ignore[no-any-return]
+        try:
+            return self._parse(value, (param and param.name) or "")
+        except InputError as error:
+            self.fail(gettext(error.message), param, ctx)
+
+
 class ContactType(click.ParamType):  # type: ignore[type-arg]
     """Contact points of a joint: ``edges``, or ``grid=N`` for N x N points."""
 
@@ -77,47 +104,6 @@ class ContactType(click.ParamType):  # type: ignore[type-arg]
         if name != "grid":
             self.fail(gettext("{value!r} is neither edges nor grid=N, for example grid=5", value=value), param, ctx)
         return Count(N_("contact points along each side of a joint"), MAX_JOINT_POINTS, minimum=3).convert(count, param, ctx)
-
-
-class Length(click.ParamType):  # type: ignore[type-arg]
-    """A length: metres, or a number with a unit (``24cm``, ``8sun``)."""
-
-    name = "length"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the length, m."""
-        if isinstance(value, float):
-            return value  # default, or already converted
-        try:
-            return parse_length(value, quantity=lazy_gettext(param.name if param and param.name in SIZES else "length"))
-        except InputError as error:
-            self.fail(gettext(error.message), param, ctx)
-
-
-class Mass(click.ParamType):  # type: ignore[type-arg]
-    """A mass: kilograms, or a number with a unit (``1.3t``)."""
-
-    name = "mass"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the mass, kg."""
-        try:
-            return parse_mass(value)
-        except InputError as error:
-            self.fail(gettext(error.message), param, ctx)
-
-
-class InsetType(click.ParamType):  # type: ignore[type-arg]
-    """Inset of worn edges per side: a share of the width (``0.1``, ``10%``), or a length with unit (``1cm``)."""
-
-    name = "inset"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> EdgeWear:
-        """Return the inset."""
-        try:
-            return value if isinstance(value, EdgeWear) else parse_edge_wear(value)
-        except InputError as error:
-            self.fail(gettext(error.message), param, ctx)
 
 
 class ShareType(Finite):
@@ -185,7 +171,7 @@ class Shares(Floats):
 class Quantities(Floats):
     """Numbers with units as :class:`Floats`; the type of one value words its errors."""
 
-    def __init__(self, item: Length | Mass) -> None:
+    def __init__(self, item: Parsed[float]) -> None:
         self.item = item
 
     def _number(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> float:
@@ -240,19 +226,6 @@ class WindowType(click.ParamType):  # type: ignore[type-arg]
         return first, last
 
 
-class StoreyType(click.ParamType):  # type: ignore[type-arg]
-    """Storey ``T=0.6,zeta=0.05,height=0.8``: period, s, damping ratio and height ratio; only T is required."""
-
-    name = "storey"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Storey:
-        """Return the storey."""
-        try:
-            return value if isinstance(value, Storey) else parse_storey(value)
-        except InputError as error:
-            self.fail(gettext(error.message), param, ctx)
-
-
 class Sides(click.ParamType):  # type: ignore[type-arg]
     """One side of a body in plan, ``short`` or ``long``, or both as a list."""
 
@@ -270,29 +243,26 @@ class Sides(click.ParamType):  # type: ignore[type-arg]
         return [CompletionItem(name) for name in ("short", "long") if name.startswith(incomplete)]
 
 
-class JmaType(click.ParamType):  # type: ignore[type-arg]
-    """JMA intensity: ``6+``, ``5弱`` or a number."""
+LENGTH = Parsed("length", lambda text, name: parse_length(text, quantity=lazy_gettext(name if name in SIZES else "length")))
+"""A length: metres, or a number with a unit (``24cm``, ``8sun``)."""
 
-    name = "intensity"
+MASS = Parsed("mass", lambda text, _: parse_mass(text))
+"""A mass: kilograms, or a number with a unit (``1.3t``)."""
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the instrumental intensity."""
-        try:
-            return parse_jma_intensity(value)
-        except InputError as error:
-            self.fail(gettext(error.message), param, ctx)
+INSET = Parsed("inset", lambda text, _: parse_edge_wear(text))
+"""Inset of worn edges per side: a share of the width (``0.1``, ``10%``), or a length with unit (``1cm``)."""
 
+STOREY = Parsed("storey", lambda text, _: parse_storey(text))
+"""Storey ``T=0.6,zeta=0.05,height=0.8``: period, s, damping ratio and height ratio; only T is required."""
 
-LENGTH = Length()
-MASS = Mass()
-INSET = InsetType()
+JMA = Parsed("intensity", lambda text, _: parse_jma_intensity(text))
+"""JMA intensity: ``6+``, ``5弱`` or a number."""
+
 FLOATS = Floats()
 LENGTHS = Quantities(LENGTH)
 MU = ShareType()
 MUS = Shares()
 MASSES = Quantities(MASS)
 WINDOW = WindowType()
-STOREY = StoreyType()
-JMA = JmaType()
 SIZE = SizeType()
 SIDES = Sides()

@@ -54,11 +54,6 @@ def _find_decompressor(head: bytes) -> Callable[[IO[bytes]], Any] | None:
     return next((opener for magic, opener in _DECOMPRESSORS if re.match(magic, head)), None)
 
 
-def list_members(blob: RawFile, budget: ReadBudget) -> list[RawFile]:
-    """Return the files in an archive, see :func:`iter_members`."""
-    return list(iter_members(blob, budget))
-
-
 def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[RawFile]:
     """Yield the files in an archive and in nested archives, without plots and sparse members.
 

@@ -3,52 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
+from typing import Annotated
 
-import msgspec
-from msgspec import Struct
+from msgspec import Meta
 
 from seisblock.measures import peak_acceleration
+from seisblock.output.json.entries import entry_type, to_entry
 from seisblock.output.json.schema import Document, DocumentSchema, Result, fill
 from seisblock.studies.fetch import FetchRequest, StationDownload
 
-
-class FetchParameters(Struct, frozen=True, kw_only=True):
-    """Parameters of the command.
-
-    Parameters
-    ----------
-    event : str or None
-        Event id, or a QuakeML file.
-    time : str or None
-        Time of interest, UTC.
-    stations : list of str
-        Network and station codes; empty: all within the radius.
-    radius_km : float
-        Largest epicentral distance of stations that are not named.
-    before_s, duration_s : float
-        Beginning of the window before the origin time, and its length.
-    channels : list of str
-        Channel codes in the order of preference.
-    location : str or None
-        Location code.
-    data_center, event_center : str
-    directory : str
-        Folder of the files.
-    """
-
-    event: str | None
-    time: str | None
-    stations: list[str]
-    radius_km: float
-    before_s: float
-    duration_s: float
-    channels: list[str]
-    location: str | None
-    data_center: str
-    event_center: str
-    directory: str
+FETCH_PARAMETERS = entry_type(
+    "FetchParameters", FetchRequest, extra={"directory": Annotated[str, Meta(description="Folder of the files.")]}, bases=()
+)
 
 
 class FetchResult(Result, frozen=True, kw_only=True):
@@ -84,12 +51,12 @@ class FetchResult(Result, frozen=True, kw_only=True):
     failure: str
 
 
-FETCH = DocumentSchema("fetch", FetchParameters, FetchResult)
+FETCH = DocumentSchema("fetch", FETCH_PARAMETERS, FetchResult)
 
 
 def document(request: FetchRequest, downloads: Sequence[StationDownload], directory: Path) -> Document:
     """Return the document of a download; records are those of the stations that have one."""
-    parameters = msgspec.convert({**asdict(request), "directory": str(directory)}, FetchParameters)
+    parameters = to_entry(FETCH_PARAMETERS, request, directory=str(directory))
     return FETCH.document(parameters, ((download.record, _result(download, directory)) for download in downloads))
 
 

@@ -15,7 +15,7 @@ from seisblock.studies.map.earthquakes import ONE_DAY
 from seisblock.studies.map.station_response import StationBody, StationModel
 from seisblock.studies.map.station_row import station_row
 from seisblock.studies.map.stations import StationReport, Stations
-from seisblock.studies.map.surveyed_places import SurveyComparison, contradictions
+from seisblock.studies.map.surveyed_places import Neighbour, SurveyComparison, contradictions
 
 
 class MapParameters(Struct, frozen=True, kw_only=True):
@@ -112,14 +112,6 @@ class StationEntry(Result, frozen=True, kw_only=True):
     assessment: AssessmentEntry | None
 
 
-class NeighbourEntry(Struct, frozen=True, kw_only=True):
-    """A station near a surveyed place."""
-
-    station: str
-    distance_km: float
-    jma_intensity: float
-
-
 class SurveyEntry(Struct, frozen=True, kw_only=True):
     """A surveyed place with the stations around it.
 
@@ -151,7 +143,7 @@ class SurveyEntry(Struct, frozen=True, kw_only=True):
     pga_interval_m_s2: tuple[float | None, float | None]
     jma_intensity: float | None
     jma_intensity_interval: tuple[float | None, float | None]
-    neighbours: tuple[NeighbourEntry, ...]
+    neighbours: tuple[Neighbour, ...]
     expected_jma_intensity: float | None
     residual_jma_intensity: float | None
 
@@ -217,7 +209,7 @@ def survey_entry(answer: SurveyComparison) -> SurveyEntry:
         estimate,
         stones_count=survey.stones,
         fallen_count=survey.fallen,
-        neighbours=tuple(fill(NeighbourEntry, neighbour) for neighbour in answer.neighbours),
+        neighbours=answer.neighbours,
         expected_jma_intensity=answer.expected_intensity,
         residual_jma_intensity=answer.residual,
     )

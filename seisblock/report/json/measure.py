@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
@@ -15,32 +14,15 @@ from seisblock.output.json.entries import entry_type, to_entry
 from seisblock.output.json.schema import Document, DocumentSchema
 from seisblock.records import Record
 
-
-class MeasureParameters(Struct, frozen=True, kw_only=True):
-    """Parameters of the command.
-
-    Parameters
-    ----------
-    threshold_m_s2, threshold_from : float and str
-        Threshold of the durations, and its source.
-    velocity_highpass_hz, velocity_baseline : float or None, str
-        Processing before PGV and PGD are computed.
-    fourier_smoothing, fourier_smoothing_hz, fourier_band_hz : str, float, two floats
-        Window of the Fourier amplitude, its bandwidth, and the search band of the dominant frequency.
-    threshold_side : str
-        Sign of the acceleration that is counted.
-    gravity_m_s2 : float
-    """
-
-    threshold_m_s2: float
-    threshold_from: str
-    velocity_highpass_hz: float | None
-    velocity_baseline: str
-    fourier_smoothing: str
-    fourier_smoothing_hz: float
-    fourier_band_hz: tuple[float, float]
-    threshold_side: str
-    gravity_m_s2: float
+MEASURE_PARAMETERS = entry_type(
+    "MeasureParameters",
+    Conventions,
+    leading={
+        "threshold_m_s2": Annotated[float, Meta(description="Threshold of the durations.")],
+        "threshold_from": Annotated[str, Meta(description="Source of the threshold.")],
+    },
+    bases=(),
+)
 
 
 class SpectrumRow(Struct, frozen=True, kw_only=True):
@@ -73,7 +55,7 @@ EXTRA_KEYS = {
 """Keys of the record rather than of a component; lists for several records."""
 
 MEASURE_RESULT = entry_type("MeasureResult", ComponentMeasures)
-MEASURE = DocumentSchema("measure", MeasureParameters, MEASURE_RESULT, EXTRA_KEYS)
+MEASURE = DocumentSchema("measure", MEASURE_PARAMETERS, MEASURE_RESULT, EXTRA_KEYS)
 
 
 def document(
@@ -91,7 +73,7 @@ def document(
         "spectra": [_spectrum_rows(measures.spectra) for measures in answers],
     }
     return MEASURE.document(
-        MeasureParameters(threshold_m_s2=threshold, threshold_from=threshold_from, **asdict(conventions)),
+        to_entry(MEASURE_PARAMETERS, conventions, threshold_m_s2=threshold, threshold_from=threshold_from),
         entries,
         citations=answers[0].citations,
         warnings=[text for measures in answers for text in measures.warnings],
