@@ -15,24 +15,18 @@ from seisblock.output.text.tables import styled_line
 LENGTH_PLACEHOLDER = "LENGTH"
 """Placeholder for a length that the user has to enter."""
 
+REPEATED_OPTIONS = (
+    "scale", "target_pga", "target_jma", "highpass", "format", "units", "dt", "station", "level", "location", "inventory", "event",
+)  # fmt: skip
+"""Record options that are repeated as they were given."""
+
 
 def respond_command(source: Source, *words: str) -> str:
     """Return the ``respond`` command line for the record options and further words."""
     values = {
-        "--scale": source.scale,
-        "--target-pga": source.target_pga,
-        "--target-jma": source.target_jma,
-        "--highpass": source.highpass,
+        **{f"--{name.replace('_', '-')}": getattr(source, name) for name in REPEATED_OPTIONS},
         "--floor": source.floor and source.floor.spec,
-        "--format": source.format,
-        "--units": source.units,
-        "--dt": source.dt,
-        "--station": source.station,
-        "--level": source.level,
-        "--location": source.location,
-        "--inventory": source.inventory,
         "--response": None if source.response == "sensitivity" else source.response,
-        "--event": source.event,
     }
     options = [word for name, value in values.items() if value is not None for word in (name, str(value))]
     options += [word for window in source.window for word in ("--window", ":".join("" if end is None else f"{end:g}" for end in window))]

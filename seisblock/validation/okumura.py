@@ -29,7 +29,7 @@ NEAR_ZERO = 1e-7
 """Substitute for zero in a limit; the error is of second order."""
 
 COUNT_TOLERANCE = 0.0
-"""Tolerance of a number of violations: exact."""
+"""Tolerance of a number: exact."""
 
 
 def dimensionless(
@@ -37,6 +37,11 @@ def dimensionless(
 ) -> Case:
     """Return a dimensionless case of this paper; `kwargs` are keywords of :class:`Case`."""
     return Case(f"okumura-{key}", f"[Okumura1987]_ {locator}", quantity, "1", expected, tolerance, compute, **kwargs)
+
+
+def violations(key: str, locator: str, quantity: str, compute: Callable[[], float], **kwargs: Any) -> Case:
+    """Return a case of a statement of this paper that nothing may violate: `quantity` is a number of violations."""
+    return dimensionless(key, locator, quantity, 0.0, COUNT_TOLERANCE, compute, **kwargs)
 
 
 def steps_not_rising(values: FloatArray) -> float:
@@ -83,20 +88,16 @@ MODES = (
         2 * NEAR_ZERO,
         lambda: square_base_modes(1.0, NEAR_ZERO).c1,
     ),
-    dimensionless(
+    violations(
         "modes-1b",
         "section 3, statement 1",
         "number of steps in beta at which omega_1 does not rise",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: steps_not_rising(_frequencies(1)),
     ),
-    dimensionless(
+    violations(
         "modes-2a",
         "section 3, statement 2",
         "number of steps in beta at which omega_5 does not rise",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: steps_not_rising(_frequencies(5)),
     ),
     dimensionless(
@@ -126,20 +127,16 @@ MODES = (
         EXACT,
         lambda: square_base_modes(NEAR_ZERO, 0.8).c1,
     ),
-    dimensionless(
+    violations(
         "modes-5a",
         "section 3, statement 5",
         "number of steps in alpha at which omega_1 does not fall",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: steps_not_rising(-_frequencies(1).T),
     ),
-    dimensionless(
+    violations(
         "modes-5b",
         "section 3, statement 5",
         "number of steps in alpha at which the range of omega_1 over beta does not decrease",
-        0.0,
-        COUNT_TOLERANCE,
         _spread_against_alpha,
     ),
     dimensionless(
@@ -159,12 +156,10 @@ MODES = (
         EXACT,
         lambda: square_base_modes(NEAR_ZERO, 2.5).c2,
     ),
-    dimensionless(
+    violations(
         "modes-7",
         "section 3, statement 7",
         "number of betas at which omega_5 does not vary with alpha as stated",
-        0.0,
-        COUNT_TOLERANCE,
         _second_against_alpha,
     ),
 )
@@ -292,12 +287,10 @@ HARMONIC = (
         for h, pair in FIG_6.items()
         for mode, value in zip(("first", "second"), pair, strict=True)
     ),
-    dimensionless(
+    violations(
         "fig7-first",
         "fig. 7",
         "steps in alpha that do not lower the uplift threshold of the first mode",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: _not_easier("first", "alpha", FIG_7),
     ),
     dimensionless(
@@ -378,44 +371,34 @@ HARMONIC = (
         EXACT,
         lambda: _least_ratio("second", phi=45.0) / _least_ratio("second"),
     ),
-    dimensionless(
+    violations(
         "6-4-vertical",
         "section 6, statement 4",
         "number of minima near the vertical mode, horizontal shaking",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: _foreign_minima("vertical", (0.0, 20.0, 45.0), 90.0, True),
     ),
-    dimensionless(
+    violations(
         "6-5-rocking",
         "section 6, statement 5",
         "number of minima near rocking modes, vertical shaking",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: _foreign_minima("vertical", (0.0,), 0.0, False),
     ),
-    dimensionless(
+    violations(
         "6-5-grows",
         "section 6, statement 5",
         "steps of rho from 75 to 0 that do not lower the uplift threshold of the vertical mode",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: _not_easier("vertical", "rho", (75.0, 60.0, 45.0, 30.0, 15.0, 0.0)),
     ),
-    dimensionless(
+    violations(
         "fig11",
         "fig. 11",
         "frequencies with a higher threshold at phi = 45 than at 0 degrees, lowest of four corners",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: _fig_11_against_10(None),
     ),
-    dimensionless(
+    violations(
         "fig11-corner-4",
         "fig. 11",
         "frequencies with a higher threshold at phi = 45 than at 0 degrees, corner 4 only",
-        0.0,
-        COUNT_TOLERANCE,
         lambda: _fig_11_against_10(4),
         status="differs",
         today=expected_difference(910.0, TIE_COUNT),
