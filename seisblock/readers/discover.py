@@ -23,7 +23,7 @@ from seisblock.readers.archive import is_archive, iter_members
 from seisblock.readers.event import is_quakeml
 from seisblock.readers.limits import ReadBudget
 from seisblock.readers.options import ReadOptions
-from seisblock.readers.registry import FALLBACK, HEAD_BYTES, Format, detect_format, format_titles, list_formats, match_head
+from seisblock.readers.registry import FALLBACK, HEAD_BYTES, Format, detect_format, find_format, format_titles, list_formats, match_head
 from seisblock.readers.response import is_station_xml
 from seisblock.readers.source import LARGE_FILE_BYTES, RawFile, open_source, read_bytes, resolve_path
 
@@ -308,12 +308,11 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
                 # a complete set is yielded at once, which keeps the buffer small
                 if buffer.add(key, member) == size:
                     yield _archive_source(buffer.pop(key), stamp, inventories)
+            if not member_count:
+                unpack(open_source(path, ReadBudget()), options)  # states what is missing
+                raise RecordFormatError("{name}: no record found in this archive", name=path)
         except InputError as error:
             yield RecordSource(path.name, str(path), stamp, failure=error)
-        else:
-            if not member_count:
-                failure = RecordFormatError("{name}: no record found in this archive", name=path)
-                yield RecordSource(path.name, str(path), stamp, failure=failure)
         for incomplete_key in buffer.keys:
             yield _archive_source(buffer.pop(incomplete_key), stamp, inventories)
 
@@ -384,6 +383,10 @@ def unpack(blob: RawFile, options: ReadOptions) -> tuple[list[RawFile], tuple[Ra
     # spectra stand beside the records in downloads of CESMD
     records = [member for member in records if not _is_derived(member)] or records
     if not records:
+        for member in members:
+            # a waveform format of ObsPy is left out for want of a unit: its own error says so
+            with suppress(RecordFormatError):
+                find_format(FALLBACK).parse(member)
         message = "{name}: no record found in this archive (contents: {held}); expected {formats}, or a plain table"
         contents = [member.basename for member in members[:8]] or lazy_gettext("plots only")
         raise RecordFormatError(message, name=blob.name, held=contents, formats=format_titles())

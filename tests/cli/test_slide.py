@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 
 import numpy as np
 import pytest
@@ -12,7 +13,12 @@ from click.testing import CliRunner
 import seisblock
 from seisblock.bodies.sliding_base import sliding_base
 from seisblock.cli import main
+from seisblock.core.i18n import use_locale
+from seisblock.models.slide.describe import describe, describe_base
+from seisblock.models.slide.plot import figure
+from seisblock.models.slide.solve import solve_slide
 from seisblock.readers import read
+from seisblock.records import Motion
 from tests.lengths import all_but_slow
 
 KEYS = {"component", "slips", "slip_start_s", "max_slip_m", "residual_slip_m", "slip_count", "fell_off_slope"}
@@ -233,3 +239,16 @@ def test_slide_csv_has_no_round_off_in_friction(tmp_path):
     with path.open(encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     assert [(row["kappa"], row["mu_kinetic"]) for row in rows] == [("0.2", "0.01"), ("0.3", "0.015"), ("0.2", "0.02"), ("0.3", "0.03")]
+
+
+def test_slide_gives_a_small_displacement_in_mm_beside_a_path_of_cm():
+    """Slips of up to 9 mm over a path of 4 cm were "0.9 cm" and "less than 0.1 cm" beside a table in mm; figures have the Greek letter."""
+    motion = Motion.from_arrays(np.tile(np.sin(np.linspace(0.0, 4.0 * np.pi, 80)), 10) * 2.2, 0.01, name="EW")
+    response = solve_slide(0.2, motion)
+    assert response.outcome.max_slip_m < 0.01 < response.outcome.path_m
+    sentence = describe(response)
+    assert re.search(r"maximum displacement \d\.\d\d mm, residual displacement .* mm .*, path \d+\.\d cm", sentence), sentence
+    with use_locale("en"):
+        assert describe_base(response) == "mu 0.2, kinetic 0.2" and describe_base(response, in_figure=True) == "μ 0.2, kinetic 0.2"
+        titles = [axis.get_title(loc="left") for axis in figure([response]).axes]
+    assert any("μ 0.2, kinetic 0.2" in title for title in titles) and not any("mu 0.2" in title for title in titles)

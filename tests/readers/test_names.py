@@ -7,6 +7,7 @@ import gzip
 import io
 import lzma
 import pickle
+import tarfile
 import zipfile
 from pathlib import Path
 
@@ -16,6 +17,8 @@ import pytest
 
 from seisblock.core.errors import ComponentError, InputError, ParameterError, RecordError, RecordFormatError, RecordNotFoundError, UnitError
 from seisblock.readers import read, read_all
+from seisblock.readers.discover import iter_records
+from seisblock.readers.options import ReadOptions
 from seisblock.samples import sample_path
 from tests.readers.files import JMA_BODY, JMA_HEADER, knet, tar
 
@@ -140,13 +143,20 @@ def test_pickles_are_never_loaded(tmp_path):
             read(path, **options)
 
 
-def test_counts_without_station_name_formats_that_state_their_scale():
+def test_counts_without_station_name_formats_that_state_their_scale(tmp_path):
     """WIN, as NIED offers it (kwin) beside K-NET ASCII: no unit is to be guessed."""
     path = Path(obspy.__file__).parent / "io" / "win" / "tests" / "data" / "10030302.00"
     if not path.exists():
         pytest.skip("ObsPy without its test data")
     with pytest.raises(UnitError, match="with counts, without scale factor and station code: download the same record as K-NET ASCII"):
         read(path)
+    archive = tmp_path / "20160416.kwin.tar.gz"
+    with tarfile.open(archive, "w:gz") as bundle:
+        bundle.add(path, "20160416.win")
+    with pytest.raises(UnitError, match=r"20160416\.win: WIN file with counts, without scale factor"):
+        read(archive)
+    (source,) = iter_records([str(archive)], ReadOptions())
+    assert "WIN file with counts" in str(source.failure)
 
 
 def test_miniseed_requires_unit(tmp_path):

@@ -327,6 +327,8 @@ def test_read_xlsx(tmp_path):
     write_xlsx(path, [[], [None], *table])
     record = read(path)
     assert_equal_gal(record, {"NS": NORTH, "UD": -UP}, 1e-12)
+    write_xlsx(path, [["熊本市役所, 2016/4/16"], [], [None, "gal"], *table])
+    assert_equal_gal(read(path), {"NS": NORTH, "UD": -UP}, 1e-12)
     write_xlsx(path, table, sheets=2)
     with pytest.raises(RecordFormatError, match="2 sheets with a table"):
         read(path)

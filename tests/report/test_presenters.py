@@ -61,3 +61,10 @@ def test_figure_states_shaking_below_the_panels(lang, words):
     assert fig.footer.get_text().partition("PGA")[2] == text.partition("PGA")[2]
     assert all(word in fig.footer.get_text() for word in words)
     assert fig.build_narrow(fig.narrow_layout, None).footer.get_text() == fig.footer.get_text()
+
+
+def test_uplift_below_its_static_threshold_is_not_called_below_the_threshold():
+    """A record of 320 gal lifted a corner and was "below the threshold of 1307.6 gal (static)": the springs amplify the motion."""
+    item = response("uplift")
+    text = shaking_text("EW", response_shaking(item), static=True)
+    assert "static threshold of uplift" in text and "without amplification by the springs" in text and "below" not in text

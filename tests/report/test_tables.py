@@ -47,6 +47,7 @@ def test_numbers_are_not_split_from_units():
         "a change of the record by less than 2 % changes it",
         "この記録は 2 % だけ変わると転倒する",
         "at rest it sinks by 3.88 mm.",
+        "摩擦係数 ±20 %、反発係数 ±0.1、振幅 ±10 %",
     ):
         for width in range(9, 40):
             assert not [line for line in terminal_lines(styled_line(text), width=width) if line.lstrip().startswith(("%", "mm"))]
@@ -76,3 +77,9 @@ def test_wide_cells_are_right_aligned():
     lines = terminal_lines(table("", ["", "NS"], [["結果", "ロッキング"], ["縁", "1.0 cm, 0.2 cm"], ["最大傾斜", "7.347"]]))
     ends = {display_width(line.rstrip()) for line in lines if line.rstrip().endswith(("ロッキング", "0.2 cm", "7.347"))}
     assert len(ends) == 1
+
+
+def test_table_without_headings_begins_with_its_first_row():
+    """`body` printed two blank lines and a rule above its list of properties."""
+    first, *_ = (line for line in terminal_lines(table("", ["", ""], [["volume (m³)", 1.0]])) if line.strip())
+    assert first.split()[0] == "volume"

@@ -19,7 +19,7 @@ from seisblock.cli import main
 from seisblock.core.errors import KindError
 from seisblock.core.i18n import use_locale
 from seisblock.models.respond.options import RespondOptions
-from seisblock.models.rigid3d.describe import describe
+from seisblock.models.rigid3d.describe import clean_angle, describe
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rigid3d.plot import figure
 from seisblock.report.text.assessment import assessment_lines
@@ -182,6 +182,7 @@ def test_text_of_a_sliding_body_has_no_round_off():
     assert 0.0 < abs(response.outcome.twist_deg) < 1e-9
     assert describe(response).endswith("twist 0°.")
     assert "largest tilt 0°" in describe(response)
+    assert clean_angle(4e-5) == 0.0 and clean_angle(6e-5) == 6e-5  # 0.0000 and 0.0001 in the table
 
 
 def test_figure_in_three_dimensions_is_whole_in_japanese():

@@ -12,7 +12,7 @@ from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.toml import read_body_toml
 from seisblock.core.errors import BodyError
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.output.describe_wear import describe_edges
 from seisblock.records import Motion
 
@@ -98,7 +98,10 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
                 missing=missing,
             )
         body = of_kind(Block(**sizes), params.get("kind") or "block")
-        origin = lazy_gettext("block {width:g} m wide, {height:g} m high", width=body.width, height=body.height)
+        text = N_("block {width:g} m wide, {height:g} m high")
+        if body.depth is not None:
+            text = N_("block {width:g} m wide, {depth:g} m deep, {height:g} m high")
+        origin = lazy_gettext(text, width=body.width, depth=body.depth, height=body.height)
     if params.get("inset") is not None:
         body = body.with_wear(params["inset"])
     return BlockChoice(

@@ -160,7 +160,8 @@ def _details(response: Response[JumpOutcome], *, gal: bool) -> Iterator[Any]:
     for sentence in sentences(response, gal=gal):
         yield styled_line(sentence)
     yield from shaking_lines([response], gal=gal)
-    yield styled_line()
+    if chain_indices:
+        yield styled_line()
 
 
 def _table_chains(chains: Sequence[Chain]) -> list[int]:

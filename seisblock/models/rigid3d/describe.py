@@ -20,8 +20,8 @@ from seisblock.output.units_display import Unit, format_length, length_cell, len
 
 HEADINGS = tuple(map(N_, ("+x", "fall (s)", "azimuth (deg)", "tilt (deg)", "twist (deg)", "x ({unit})", "y ({unit})", "rest (s)")))
 
-MIN_ANGLE_DEG = 1e-6
-"""Angle below which a body that only slides has neither tilt nor twist, degrees: round-off."""
+MIN_ANGLE_DEG = 5e-5
+"""Angle below which a body has neither tilt nor twist, degrees: the table rounds it to 0."""
 
 
 def outcome_table(responses: Sequence[Response[Rigid3dOutcome]], *, gal: bool = True) -> Any:

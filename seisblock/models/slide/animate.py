@@ -44,7 +44,7 @@ def slide_animation(response: Response[SlideOutcome], times: FloatArray, *, gal:
     disp_unit = length_unit([response.outcome.max_slip_m], gal=gal)
     level = not base.slope_deg and not response.options.vertical
     return Animation(
-        title=gettext(describe_base(response)),
+        title=describe_base(response, in_figure=True),
         heading=motions_heading([motion]),
         direction=motion.name,
         time=times,

@@ -39,10 +39,11 @@ def tables(responses: SlideResponses, *, gal: bool = True) -> Iterator[Any]:
         yield from shaking_lines(group, gal=gal)
 
 
-def describe_base(response: Response[SlideOutcome]) -> str:
-    """Return the properties of the base."""
+def describe_base(response: Response[SlideOutcome], *, in_figure: bool = False) -> str:
+    """Return the properties of the base, with Greek letters in a figure."""
     base, options = response.body, response.options
-    parts = [gettext("mu {mu:g}, kinetic {kinetic:g}", mu=base.mu, kinetic=base.kinetic)]
+    friction = N_("μ {mu:g}, kinetic {kinetic:g}") if in_figure else N_("mu {mu:g}, kinetic {kinetic:g}")
+    parts = [gettext(friction, mu=base.mu, kinetic=base.kinetic)]
     if base.slope_deg and base.slope_length:
         parts.append(gettext("slope {slope:g}° for {length:g} m, then level", slope=base.slope_deg, length=base.slope_length))
     elif base.slope_deg:
@@ -73,8 +74,9 @@ def describe(response: Response[SlideOutcome], *, gal: bool = True) -> str:
             SLIDES, (base.mu, math.inf if base.one_way else base.mu), response.motion, gravity=gravity, vertical=vertical, gal=gal
         )
         return gettext("{name}: remains at rest; {onset}.", name=name, onset=onset_text)
-    unit = length_unit([outcome.max_slip_m, outcome.path_m], gal=gal)
-    words = {"name": name, "most": format_size(outcome.max_slip_m, unit), "path": format_size(outcome.path_m, unit)}
+    # the path has a unit of its own: many slips of millimetres add up to a path of centimetres
+    unit = length_unit([outcome.max_slip_m], gal=gal)
+    words = {"name": name, "most": format_size(outcome.max_slip_m, unit), "path": format_size(outcome.path_m, gal=gal)}
     if format_size(outcome.path_m, gal=gal) != format_length(outcome.path_m, gal=gal):
         text = gettext("{name}: slides {path} in total", name=name, path=format_size(outcome.path_m, gal=gal))
     elif outcome.final_slip_m is None:

@@ -70,7 +70,7 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Slid
     for panel, text in zip(panels, labels, strict=False):
         style.label_axes(panel, y=text)
         style.add_legend(panel)
-    style.set_panel_title(top, gettext("{name}: {what}", name=panel_name, what=describe_base(response)))
+    style.set_panel_title(top, gettext("{name}: {what}", name=panel_name, what=describe_base(response, in_figure=True)))
 
 
 def motion_interval(response: Response[SlideOutcome]) -> Interval:

@@ -15,7 +15,7 @@ from seisblock.output.units_display import velocity_unit
 
 
 def shaking_lines(responses: Sequence[Response[Any]], *, gal: bool, static: bool = False) -> Iterator[Text]:
-    """Yield a line per direction; `static` marks a threshold that dynamic amplification may undercut."""
+    """Yield a line per direction; `static` for a body on springs."""
     for response in responses:
         yield styled_line(shaking_text(response.motion.name or "x", response_shaking(response), gal=gal, static=static), "dim")
 
@@ -30,7 +30,7 @@ def shaking_text(name: str, shaking: BodyShaking, *, gal: bool = True, static: b
     shaking : BodyShaking
     gal : bool
     static : bool
-        The threshold is that of a slow acceleration: a body on springs may move below it.
+        The threshold is that of a slow acceleration: a body on springs may lift below it.
 
     Examples
     --------
@@ -46,6 +46,11 @@ def shaking_text(name: str, shaking: BodyShaking, *, gal: bool = True, static: b
     frequency = shaking.equivalent_frequency_hz
     if shaking.threshold_m_s2 is None:
         template = N_("{name}: PGA {pga}, PGV {pgv}, equivalent frequency {frequency}.")
+    elif static:
+        template = N_(
+            "{name}: PGA {pga}, PGV {pgv}, equivalent frequency {frequency}; static threshold of uplift {threshold} (without "
+            "amplification by the springs)."
+        )
     elif not shaking.time_above_threshold_s:
         template = N_("{name}: PGA {pga}, PGV {pgv}, equivalent frequency {frequency}; below the threshold of {threshold}.")
     else:
@@ -59,7 +64,7 @@ def shaking_text(name: str, shaking: BodyShaking, *, gal: bool = True, static: b
         pga=format_acceleration(shaking.pga_m_s2, gal=gal),
         pgv=f"{format_number(shaking.pgv_m_s / speed.size)} {speed.name}",
         frequency=DASH if frequency is None else f"{format_number(frequency)} Hz",
-        threshold=gettext("{level} (static)", level=threshold) if static else threshold,
+        threshold=threshold,
         time=format_seconds(shaking.time_above_threshold_s),
         longest=format_seconds(shaking.longest_above_threshold_s),
     )

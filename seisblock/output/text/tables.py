@@ -85,7 +85,7 @@ def _with_title(title: str, body: Any, caption: str) -> Group:
 
 
 def _table(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:
-    result = Table(box=SIMPLE_HEAD, pad_edge=False)
+    result = Table(box=SIMPLE_HEAD, pad_edge=False, show_header=any(columns))
     for index, heading in enumerate(columns):
         result.add_column(escape_control(heading), justify="left" if index == 0 else "right", overflow="fold")
     for row in rows:

@@ -14,7 +14,7 @@ _CLOSING_PUNCTUATION = "、。，．）」』］：；！？ー・々ぁぃぅ�
 _UNITS = rf"(?:%|mm|cm|km|m|s|Hz|gal|kine|g|kg|N|J|rad|deg)(?![\w/])(?:[^\s{_WIDE}]*)"
 """Unit that stays with the preceding number, with following punctuation."""
 
-_NUMBER = rf"[(+-]*\d[\d.,]*\ {_UNITS}"
+_NUMBER = rf"[(+±-]*\d[\d.,]*\ {_UNITS}"
 
 _ATOM = re.compile(rf"\s*[（「『［]*(?:{_NUMBER}|[^\s{_WIDE}]+|[{_WIDE}])[{_CLOSING_PUNCTUATION}]*|\s+")
 """Unbreakable piece: a word, a number with unit, or a wide character, with adjacent punctuation."""

@@ -6,6 +6,7 @@ import csv
 import io
 import warnings
 from datetime import datetime, time
+from itertools import takewhile
 from typing import Any
 
 from seisblock.core.errors import RecordFormatError
@@ -54,12 +55,14 @@ def read_xlsx(blob: RawFile, *, units: str | None = None, dt: float | None = Non
 
 
 def _to_csv(sheet: Any) -> str:
-    """Return the cells of a sheet as a table of commas, without empty rows and columns at the edges."""
+    """Return the cells of a sheet as a table of commas, without empty rows and columns; rows of one cell on top are comments."""
     rows = [[_to_text(cell) for cell in row] for row in sheet.iter_rows(values_only=True)]
     rows = [row for row in rows if any(row)]
     used = [i for i in range(max(map(len, rows), default=0)) if any(row[i] for row in rows if i < len(row))]
-    buffer = io.StringIO()
-    csv.writer(buffer, lineterminator="\n").writerows([[row[i] if i < len(row) else "" for i in used] for row in rows])
+    titles = [] if len(used) == 1 else list(takewhile(lambda row: sum(map(bool, row)) == 1, rows))
+    buffer = io.StringIO("".join(f"# {' '.join(''.join(row).split())}\n" for row in titles))
+    buffer.seek(0, io.SEEK_END)
+    csv.writer(buffer, lineterminator="\n").writerows([[row[i] if i < len(row) else "" for i in used] for row in rows[len(titles) :]])
     return buffer.getvalue()
 
 

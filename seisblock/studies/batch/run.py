@@ -9,10 +9,12 @@ from itertools import groupby
 from os import PathLike
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from seisblock.bodies.block import Block
+from seisblock.bodies.body_name import body_name
 from seisblock.bodies.table import BodySpec, read_bodies, resolve_kinds
 from seisblock.core import checks
 from seisblock.core.errors import KindError, ParameterError
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.registry import Solver, SolverBody, get_solver
 from seisblock.core.typing import Progress
 from seisblock.readers.discover import RecordSource, iter_records
@@ -20,13 +22,16 @@ from seisblock.readers.options import ReadOptions
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.studies.batch.table import BatchTable, Row, batch_columns
-from seisblock.studies.batch.task import Plan, build_solver_bodies, failure_row, record_rows
+from seisblock.studies.batch.task import Plan, RejectedBody, build_solver_bodies, failure_row, record_rows
 from seisblock.studies.batch.worst_azimuth import check_all_azimuths, is_all_azimuths
 from seisblock.studies.parallel import MAX_PENDING_RECORDS, map_threads
 from seisblock.studies.solvers import solver_studies
 
 if TYPE_CHECKING:
     from distributed import Client
+
+MAX_NAMES = 3
+"""Largest number of bodies named in a note."""
 
 NO_PROCESSING = Preparation()
 """Default preparation: only the processing required by the format."""
@@ -126,8 +131,9 @@ def make_plan(
     body_list = named_bodies(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
     check_all_azimuths(solver, names, options)
-    plan = Plan(solver, build_solver_bodies(model, body_list, options), names, preparation, read_options, runs, checks.seed(seed), strict)
-    return plan, ignored_column_notes(model, body_list)
+    solver_bodies = build_solver_bodies(model, body_list, options)
+    plan = Plan(solver, solver_bodies, names, preparation, read_options, runs, checks.seed(seed), strict)
+    return plan, (*ignored_column_notes(model, body_list), *narrow_depth_notes(model, solver_bodies, names))
 
 
 def iter_record_rows(
@@ -206,6 +212,19 @@ def named_bodies(bodies: Bodies, model: Solver) -> list[BodySpec | SolverBody]:
                 found=checks.type_name(body),
             )
     return result
+
+
+def narrow_depth_notes(model: Solver, bodies: Sequence[SolverBody | RejectedBody], components: Sequence[str]) -> tuple[Message, ...]:
+    """Return a note on blocks with a depth below their width: in the plane of a component only the width counts."""
+    blocks = [(item.name, item.body) for item in bodies if isinstance(item, SolverBody) and isinstance(item.body, Block)]
+    names = [body_name(name) for name, block in blocks if block.depth is not None and block.depth < block.width]
+    if not names or model.spatial or is_all_azimuths(components):
+        return ()
+    text = (
+        "{names} ({count} of {all} bodies): depth smaller than the width, which alone lies along the motion; exchange width and depth "
+        "for the weaker side"
+    )
+    return (lazy_gettext(text, names=names[:MAX_NAMES], count=len(names), all=len(bodies)),)
 
 
 def ignored_column_notes(model: Solver, bodies: Sequence[BodySpec | SolverBody]) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.studies.azimuths import STEP_DEG, sweep_azimuths
-from seisblock.studies.batch.run import NO_PROCESSING, Bodies, named_bodies
+from seisblock.studies.batch.run import NO_PROCESSING, Bodies, named_bodies, narrow_depth_notes
 from seisblock.studies.batch.task import RejectedBody, build_solver_bodies
 from seisblock.studies.batch.worst_azimuth import check_all_azimuths
 from seisblock.studies.fragility.damage_states import LimitState, describe_limit, limit_states
@@ -386,6 +386,7 @@ def run_fragility(
     floor_notes = (lazy_gettext("bodies on a floor; intensities of the ground motion"),) if preparation.floor else ()
     notes = (
         *exclusion_notes,
+        *narrow_depth_notes(get_solver(solver), solver_bodies, names),
         *directions,
         *floor_notes,
         *stopped_run_notes(body_runs, suite, measures[0]),

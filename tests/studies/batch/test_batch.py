@@ -9,6 +9,7 @@ import pytest
 import seisblock
 from seisblock.core.errors import KindError, ParameterError
 from seisblock.models.respond.options import RespondOptions
+from seisblock.studies.fragility.run import run_fragility
 from tests.studies.batch.conftest import document, run, write_record
 
 
@@ -158,6 +159,18 @@ def test_batch_takes_a_bundled_kind_beside_sizes(folder):
     shelf, piano = batch.rows
     assert shelf["mu"] == 0.4 and piano["mu"] == 0.5
     assert "kinds without effect: 'piano'" in str(batch.notes[0])
+
+
+def test_batch_names_bodies_narrower_across_the_motion(folder):
+    """A shelf 90 cm wide and 30 cm deep stood in every record without a word, while `scenario` let it fall over its depth."""
+    (folder / "b.csv").write_text("name,width,depth,height,mu\nshelf,0.9,0.3,1.8,0.5\nstand,0.3,0.3,1,0.5\n")
+    note = "shelf (1 of 2 bodies): depth smaller than the width"
+    for components, named in (("NS", True), ("all-azimuths", False)):
+        notes = seisblock.run_batch("records/r0.csv", "b.csv", "rock", components=components).notes
+        assert any(str(text).startswith(note) for text in notes) is named
+    shelf = {"shelf": seisblock.Block(0.3, 1.8, depth=0.2)}
+    study = run_fragility(["records/r0.csv", "records/r1.csv"], shelf, "rock", steps=30, bootstrap=10)
+    assert any(str(text).startswith("shelf (1 of 1 bodies): depth smaller") for text in study.notes)
 
 
 def test_batch_processes_records_and_rotates_components(folder):
