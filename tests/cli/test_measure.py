@@ -11,6 +11,8 @@ from click.testing import CliRunner
 from seisblock.cli import main
 from seisblock.core.units import STANDARD_GRAVITY
 
+pytestmark = pytest.mark.usefixtures("computed_once")
+
 CHOZUSHA_CENTROID = (1303.7 * (1.84 + 1.06 / 2) + 160.0 * 1.84 / 2) / 1463.7
 
 

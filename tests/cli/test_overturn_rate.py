@@ -19,6 +19,8 @@ from seisblock.criteria.gravestones import DOWELLED, overturning_ratio
 from seisblock.samples import sample_path
 from seisblock.studies.intervals import clopper_pearson
 
+pytestmark = pytest.mark.usefixtures("computed_once")
+
 AOYAMA = read_cemetery("aoyama.csv")
 KEYS = {"pga_m_s2", "equivalent_frequency_hz", "threshold_ratio", "rate", "rate_interval"}
 

@@ -185,7 +185,7 @@ def brief_samples(tmp_path_factory):
 
 
 @pytest.fixture
-def workshop(tmp_path, brief_samples, monkeypatch, request):
+def workshop(tmp_path, brief_samples, monkeypatch, request, computed_once):
     """A directory with the record that the examples name; it and the bundled one are brief, for how long they are is not the point.
 
     The evidence and the items of papers rest on the bundled record as it is.
@@ -222,7 +222,7 @@ def examples(name):
     return [line for line in lines if line]
 
 
-SECONDS = ("fetch", "fit", "measure", "report", "rock", "scenario", "secure", "spectrum", "stack", "uplift", "validate")
+SECONDS = ("fetch", "fit", "infer", "measure", "report", "rigid3d", "rock", "scenario", "secure", "spectrum", "stack", "uplift", "validate")
 """Commands some of whose examples take seconds."""
 
 

@@ -31,6 +31,8 @@ from seisblock.studies.report.responses import collect_responses
 from tests.brief_record import brief_record
 from tests.i18n.english import english_words, visible_text
 
+pytestmark = pytest.mark.usefixtures("computed_once")
+
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
 

@@ -15,6 +15,8 @@ from seisblock.cli.options import Source
 from seisblock.cli.output import OutputOptions
 from tests.lengths import all_but_slow
 
+pytestmark = pytest.mark.usefixtures("computed_once")
+
 SHORT = ("synthetic_jma.csv", "--window", "25.5:26.5", "--component", "NS")
 BLOCK = ("--width", "24cm", "--height", "72cm")
 

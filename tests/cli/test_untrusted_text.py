@@ -12,6 +12,8 @@ from seisblock.cli import main
 from tests.lengths import all_but_slow
 from tests.readers.files import KNET_CSV
 
+pytestmark = pytest.mark.usefixtures("computed_once")
+
 NASTY = "\x1b[31mred\x07 \x9b1m\u202e [bold]loud[/bold] [/] $x_{\\frac$ <script>alert(1)</script> {0} {name} %s "
 COMMANDING = "\x1b\x07\x9b\u202e"
 """What a terminal obeys: escapes, the bell, an escape of one byte, letters from right to left."""
