@@ -24,6 +24,7 @@ from seisblock.dynamics.buffers import (
     FIRST_EVENT_TIME,
     MODE,
     N_EVENTS,
+    N_FLUSHED,
     OUTPUT,
     SAMPLE,
     SAMPLES_AFTER,
@@ -58,7 +59,7 @@ ROW_ARGUMENTS = BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, OUTPUT, SCRATCH, MATR
 def integrate_rows(advance, series, reset, skip, observe, forcing, shape, parameters, rows, output, scratch, observed, first_row, steps):
     """Integrate one trajectory per row of `parameters` from `first_row` on, for `steps` steps in total; return the next row.
 
-    A trajectory whose events do not fit into the tables stays paused.
+    An observer without a path sees the events in several portions; with a path, a trajectory with too many of them stays paused.
     """
     row = first_row
     while row < parameters.shape[0] and steps > 0:
@@ -86,7 +87,11 @@ def integrate_rows(advance, series, reset, skip, observe, forcing, shape, parame
         segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= forcing.acceleration.shape[1] - 1
         if rows.statuses[row] != PAUSED:
             observe(row_forcing, parameters[row], state, row_output, observed[row])
-        if rows.statuses[row] != PAUSED or segment_done or 2 * counters[N_EVENTS] > output.times.size > 0:
+        is_full = 2 * (counters[N_EVENTS] - counters[N_FLUSHED]) > output.times.size > 0
+        if is_full and output.path.shape[0] == 0 and rows.statuses[row] == PAUSED:
+            observe(row_forcing, parameters[row], state, row_output, observed[row])
+            counters[N_FLUSHED] = counters[N_EVENTS]
+        elif rows.statuses[row] != PAUSED or segment_done or is_full:
             row += 1
     return row
 
@@ -144,7 +149,7 @@ class Ensemble:
     failed : (m,) array of bool
         Rows whose integration failed; they hold the state at the failure, which is not a valid result.
     observed : (m, n) array
-        Numbers of the observer; NaN for failed rows and those with too many events to be observed.
+        Numbers of the observer; NaN for failed rows and those with too many events for a path.
     """
 
     model: Model
@@ -164,12 +169,6 @@ class Ensemble:
     def end_time(self) -> FloatArray:
         """End times of the integrations, (m,), s after sample 0."""
         return self.end.sample * self.dt + self.end.tau
-
-    def replace_rows(self, rows: IntArray, other: Ensemble) -> None:
-        """Take the rows `rows` from another ensemble of that many rows."""
-        for name in ("final", "final_mode", "n_events", "first_event_time", "extrema", "transition_counts", "dwell_times", "failed"):
-            getattr(self, name)[rows] = getattr(other, name)
-        self.end.sample[rows], self.end.tau[rows] = other.end
 
 
 def integrate_many(

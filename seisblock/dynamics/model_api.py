@@ -36,8 +36,11 @@ def no_skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
 
 
 OBSERVE = _t.void(FORCING, VECTOR, STATE, OUTPUT, VECTOR)
-"""observe(forcing, p, state, output, observed): writes numbers about a finished trajectory of a batch from its path and events, which the
-next one overwrites."""
+"""observe(forcing, p, state, output, observed): writes numbers about a trajectory of a batch from its path and events, which the next one
+overwrites.
+
+Called at the end and, without a path, whenever the tables of events are half full: they hold the events after the first ``N_FLUSHED``.
+``observed`` is NaN before the first call."""
 
 
 @kernel(OBSERVE)

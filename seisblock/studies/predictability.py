@@ -23,10 +23,10 @@ from seisblock.core.typing import FloatArray
 from seisblock.dynamics import Trajectory, integrate
 from seisblock.models.respond import constants
 from seisblock.models.respond.options import RespondOptions
+from seisblock.models.respond.outcome import run_end
 from seisblock.models.respond.params import motion_gains
 from seisblock.models.respond.run import Run, run
 from seisblock.models.respond.solve import respond_params
-from seisblock.models.respond.solve import verdict as respond_verdict
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome
 from seisblock.models.rigid3d.solve import solve_rigid3d
 from seisblock.models.rock import model as rock_model
@@ -85,7 +85,7 @@ def respond_predictable_until(block: Block, motion: Motion, options: RespondOpti
         parts = [(0.0, result.record_part)]
         if result.free_part is not None:
             parts.append((result.duration_s, result.free_part))
-        return _Track(tuple(parts), result.end_s, respond_verdict(result))
+        return _Track(tuple(parts), result.end_s, run_end(result, ()).verdict)
 
     right, left = params.rigid_body.slendernesses
     width = params.rigid_body.right + params.rigid_body.left

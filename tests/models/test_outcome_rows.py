@@ -48,7 +48,7 @@ def respond_bodies():
         yield SolverBody(f"{k}", Block(width, height, centroid_offset=0.01 * (k % 3)), options)
 
 
-@pytest.mark.parametrize(("solver", "bodies"), [("rock", rock_bodies)])
+@pytest.mark.parametrize(("solver", "bodies"), [("rock", rock_bodies), ("respond", respond_bodies)])
 @pytest.mark.parametrize(("seed", "peak", "vertical"), [(0, 2.0, True), (1, 5.0, False), (2, 8.0, True), (3, 20.0, True)])
 def test_rows_equal_single_runs(solver, bodies, seed, peak, vertical):
     """Every scalar and every warning, falls during and after the record among them."""

@@ -18,6 +18,7 @@ from seisblock.criteria.initiation import Mode
 from seisblock.dynamics import Ensemble, integrate_many
 from seisblock.dynamics.buffers import LONGEST, TOTAL
 from seisblock.dynamics.cancellation import cancel_scope, current_events
+from seisblock.dynamics.ensemble import NO_OBSERVER, Observer
 from seisblock.dynamics.model import Model
 from seisblock.models.respond import constants
 from seisblock.models.respond.params import FLAT_RATE, SMALL_RATE, Initial, RespondBatchParams, RespondParams
@@ -163,9 +164,30 @@ def respond_many(
     )
 
 
-def _run_batch(
-    params: Sequence[RespondParams] | RespondBatchParams, motion: Motion, gains: FloatArray, initial: Initial, settle_s: float
-) -> RespondBatchResult:
+@dataclass(eq=False)
+class Runs:
+    """Ends of m runs; arrays of shape (m,), (m, 2) of the tracked states, (m, n_states), (m, 5) of the modes, (m, n) of the observer."""
+
+    failed: BoolArray
+    mode: IntArray
+    final: FloatArray
+    time: FloatArray
+    high: FloatArray
+    low: FloatArray
+    mode_times: FloatArray
+    longest_times: FloatArray
+    observed: FloatArray
+
+
+def solve_runs(
+    params: Sequence[RespondParams] | RespondBatchParams,
+    motion: Motion,
+    gains: FloatArray,
+    initial: Initial,
+    settle_s: float,
+    observer: Observer = NO_OBSERVER,
+) -> Runs:
+    """Solve runs through a motion and up to rest; the observer counts, so that both parts are added."""
     if isinstance(params, RespondBatchParams):
         template, initial_states = params.row_params(0), params.states(initial)
     else:
@@ -173,55 +195,70 @@ def _run_batch(
     model = template.model
     duration = (motion.samples - 1) * motion.dt
     # a failed row must not fail the others: it is reported, and excluded from what follows
-    record_run = _integrate_rows(model, motion, _parameter_rows(params, motion.dt, duration), initial_states, template.first_mode, gains)
-    failed = record_run.failed.copy()
-    final, mode, end = record_run.final.copy(), record_run.final_mode.copy(), record_run.end_time.copy()
-    high, low = _extrema(record_run)
-    mode_times, longest_times = _mode_times(record_run)
-    moving = ~failed & (mode >= 0) & (mode % constants.TENON_OFFSET != constants.REST)
+    p = _parameter_rows(params, motion.dt, duration)
+    runs = _integrate_rows(model, motion, p, initial_states, template.first_mode, gains, observer)
+    record_mode = runs.mode.copy()
+    moving = ~runs.failed & (record_mode >= 0) & (record_mode % constants.TENON_OFFSET != constants.REST)
     if settle_s > 0.0 and moving.any():
         ground = zero_motion(settle_s)
         p = _parameter_rows(params, ground.dt, duration + settle_s, ground_at_rest=True)
-        for kind in np.unique(mode[moving]):
-            # one call per mode: the engine starts all rows of an ensemble in the same mode
-            rows = np.flatnonzero(moving & (record_run.final_mode == kind))
-            free_run = _integrate_rows(model, ground, p[rows], record_run.final[rows], int(kind), np.array([[1.0, 0.0, 1.0]]))
-            failed[rows] = free_run.failed
-            final[rows], mode[rows] = free_run.final, free_run.final_mode
-            end[rows] = duration + free_run.end_time
-            higher, lower = _extrema(free_run)
-            high[rows], low[rows] = np.maximum(high[rows], higher), np.minimum(low[rows], lower)
-            free_times = _mode_times(free_run)
-            mode_times[rows] += free_times[0]
-            longest_times[rows] = np.maximum(longest_times[rows], free_times[1])
+        rows = np.flatnonzero(moving)
+        free = _integrate_rows(model, ground, p[rows], runs.final[rows], record_mode[rows], np.array([[1.0, 0.0, 1.0]]), observer)
+        runs.failed[rows], runs.final[rows], runs.mode[rows], runs.time[rows] = free.failed, free.final, free.mode, duration + free.time
+        runs.high[rows], runs.low[rows] = np.maximum(runs.high[rows], free.high), np.minimum(runs.low[rows], free.low)
+        runs.mode_times[rows] += free.mode_times
+        runs.longest_times[rows] = np.maximum(runs.longest_times[rows], free.longest_times)
+        runs.observed[rows] += free.observed
+    return runs
+
+
+def _run_batch(
+    params: Sequence[RespondParams] | RespondBatchParams, motion: Motion, gains: FloatArray, initial: Initial, settle_s: float
+) -> RespondBatchResult:
+    runs = solve_runs(params, motion, gains, initial, settle_s)
+    mode, final, high, low = runs.mode, runs.final, runs.high, runs.low
     is_overturned = mode == constants.OVERTURNED
     return RespondBatchResult(
         overturned=is_overturned,
-        settled=~failed & ((mode == constants.SETTLED) | ((mode >= 0) & (mode % constants.TENON_OFFSET == constants.REST))),
-        gave_up=failed | (mode == constants.GAVE_UP),
+        settled=~runs.failed & ((mode == constants.SETTLED) | ((mode >= 0) & (mode % constants.TENON_OFFSET == constants.REST))),
+        gave_up=runs.failed | (mode == constants.GAVE_UP),
         direction=np.where(is_overturned, np.sign(final[:, constants.THETA]), 0.0).astype(np.int64),
         final_displacement_m=final[:, constants.X],
         max_displacement_m=np.maximum(high[:, constants.X], -low[:, constants.X]) + 0.0,
         max_rotation_rad=np.maximum(high[:, constants.THETA], -low[:, constants.THETA]) + 0.0,
         slip_path_m=final[:, constants.PATH],
         impacts=final[:, constants.IMPACTS].astype(np.int64),
-        end_s=end,
-        time_in_mode_s=mode_times,
-        longest_flight_s=longest_times[:, MODE_COLUMNS.index(Mode.FLIGHT)],
+        end_s=runs.time,
+        time_in_mode_s=runs.mode_times,
+        longest_flight_s=runs.longest_times[:, MODE_COLUMNS.index(Mode.FLIGHT)],
     )
 
 
-def _integrate_rows(model: Model, motion: Motion, p: FloatArray, initial: FloatArray, mode: int, gains: FloatArray) -> Ensemble:
+def _integrate_rows(
+    model: Model, motion: Motion, p: FloatArray, initial: FloatArray, mode: int | IntArray, gains: FloatArray, observer: Observer
+) -> Runs:
     """Integrate rows; repeat those with bodies set flat whose impacts do not end."""
-    ensemble = integrate_many(model, motion, p, initial, mode, gains=gains, allow_failures=True)
-    rows = np.flatnonzero(ensemble.failed)
-    if not rows.size:
-        return ensemble
-    flat = p[rows]
-    flat[:, constants.FLAT_RATE] = FLAT_RATE / SMALL_RATE * flat[:, constants.SMALL_RATE]
-    first, repeated = np.broadcast_to(initial, (len(p), initial.shape[-1]))[rows], np.broadcast_to(gains, (len(p), 3))[rows]
-    ensemble.replace_rows(rows, integrate_many(model, motion, flat, first, mode, gains=repeated, allow_failures=True))
-    return ensemble
+
+    def attempt(rows: IntArray, p: FloatArray) -> Runs:
+        first = np.broadcast_to(initial, (runs, np.shape(initial)[-1]))[rows]
+        kind, factors = np.broadcast_to(mode, runs)[rows], np.broadcast_to(gains, (runs, 3))[rows]
+        ensemble = integrate_many(model, motion, p, first, kind, gains=factors, allow_failures=True, observer=observer)
+        high, low = ensemble.extrema[:, :, 0].copy(), ensemble.extrema[:, :, 2].copy()
+        times = _mode_times(ensemble)
+        return Runs(ensemble.failed, ensemble.final_mode, ensemble.final, ensemble.end_time, high, low, *times, ensemble.observed)
+
+    runs = len(p)
+    result = attempt(np.arange(runs), p)
+    rows = np.flatnonzero(result.failed)
+    if rows.size:
+        flat = p[rows]
+        flat[:, constants.FLAT_RATE] = FLAT_RATE / SMALL_RATE * flat[:, constants.SMALL_RATE]
+        repeated = attempt(rows, flat)
+        for item in fields(Runs):
+            getattr(result, item.name)[rows] = getattr(repeated, item.name)
+        # the tables of an observer may have been too small
+        result.observed[rows] = np.nan
+    return result
 
 
 def _parameter_rows(
@@ -239,8 +276,3 @@ def _mode_times(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:
     total = [ensemble.dwell_times[:, column, TOTAL].sum(axis=1) for column in columns]
     longest = [ensemble.dwell_times[:, column, LONGEST].max(axis=1) for column in columns]
     return np.column_stack(total), np.column_stack(longest)
-
-
-def _extrema(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:
-    """Return maxima and minima of the tracked states, (m, 2) each."""
-    return ensemble.extrema[:, :, 0].copy(), ensemble.extrema[:, :, 2].copy()

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
+
 from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import N_, Term, lazy_gettext
+from seisblock.core.typing import FloatArray
 from seisblock.criteria.initiation import Mode
 from seisblock.dynamics import GuardEvent
 from seisblock.models.respond import constants
 from seisblock.models.respond.params import RespondParams
-from seisblock.models.respond.run import Run
+from seisblock.models.respond.run import is_rest
 
 
 class OutcomeName(Term):
@@ -38,15 +41,15 @@ MOTION_OUTCOMES = {
 """Outcomes of a body that did not overturn, by (slid, rocked, flew)."""
 
 
-def outcome_name(run: Run, modes: set[str]) -> OutcomeName:
-    """Return the outcome of a run that passed through `modes`."""
-    if run.mode == constants.OVERTURNED:
+def outcome_name(mode: int, modes: Collection[str]) -> OutcomeName:
+    """Return the outcome of a run that ended in `mode` and passed through `modes`."""
+    if mode == constants.OVERTURNED:
         return OutcomeName.OVERTURNS
-    if run.mode == constants.GAVE_UP:
+    if mode == constants.GAVE_UP:
         return OutcomeName.STILL_BOUNCING
-    if not run.ends_at_rest:
+    if not is_rest(mode):
         return OutcomeName.STILL_MOVING
-    slid, rocked = (bool({mode, Mode.SLIDE_ROCK} & modes) for mode in (Mode.SLIDE, Mode.ROCK))
+    slid, rocked = (mode in modes or Mode.SLIDE_ROCK in modes for mode in (Mode.SLIDE, Mode.ROCK))
     return MOTION_OUTCOMES[slid, rocked, Mode.FLIGHT in modes]
 
 
@@ -70,15 +73,15 @@ def event_name(change: GuardEvent) -> str:
     return MODE_EVENT_NAMES[Mode(constants.MODES[change.target])]
 
 
-def run_warnings(run: Run, params: RespondParams, end_s: float, settle_s: float) -> tuple[str, ...]:
-    """Return the warnings of a run."""
+def run_warnings(mode: int, final: Sequence[float] | FloatArray, params: RespondParams, end_s: float, settle_s: float) -> tuple[str, ...]:
+    """Return the warnings of a run that ended in a mode and a state."""
     name = body_name(params.rigid_body.name)
-    impacts, jams, lowered_count = (int(run.final[state]) for state in (constants.IMPACTS, constants.JAMS, constants.RATIO_LOWERED))
+    impacts, jams, lowered_count = (int(final[state]) for state in (constants.IMPACTS, constants.JAMS, constants.RATIO_LOWERED))
     messages: list[str] = []
-    if run.mode == constants.GAVE_UP:
+    if mode == constants.GAVE_UP:
         text = N_("{name}: run stopped at {time:.3f} s, still bouncing after {impacts} impacts; use a smaller `restitution`")
         messages.append(lazy_gettext(text, name=name, time=end_s, impacts=impacts))
-    elif run.mode != constants.OVERTURNED and not run.ends_at_rest:
+    elif mode != constants.OVERTURNED and not is_rest(mode):
         text = N_("{name}: still in motion {time:g} s after the record; results refer to that instant")
         messages.append(lazy_gettext(text, name=name, time=settle_s))
     if params.can_jam:

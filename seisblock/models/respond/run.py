@@ -80,7 +80,7 @@ class Run:
     @property
     def ends_at_rest(self) -> bool:
         """True if the run ends at rest."""
-        return self.mode == constants.SETTLED or (self.mode >= 0 and self.mode % constants.TENON_OFFSET == constants.REST)
+        return is_rest(self.mode)
 
     def extrema(self, state: int) -> tuple[float, float]:
         """Return maximum and minimum of a tracked state."""
@@ -158,6 +158,11 @@ def _integrate(
         return attempt(params)
     except SolverError:
         return attempt(replace(params, sets_flat=True))
+
+
+def is_rest(mode: int) -> bool:
+    """Return whether a final mode is rest."""
+    return mode == constants.SETTLED or (mode >= 0 and mode % constants.TENON_OFFSET == constants.REST)
 
 
 def is_moving(mode: int) -> bool:

@@ -13,6 +13,7 @@ from seisblock.core.registry import Solver, SolverBody, ValueMap, register
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.outcome import RespondOutcome
 from seisblock.models.respond.params import Body, rigid_body
+from seisblock.models.respond.rows import solve_respond_rows
 from seisblock.models.respond.solve import solve_respond
 
 OWN_COLUMNS = ("restitution", "rocking_restitution", "tenon")
@@ -45,6 +46,8 @@ SOLVER = register(
         event="overturned",
         overturned="overturned",
         displacement="max_displacement_m",
+        solve_rows=solve_respond_rows,
+        row_options=("mu", "mu_kinetic", "restitution", "rocking_restitution", "vertical", "gravity"),
         threshold=_threshold,
         describe="seisblock.models.respond.describe:describe",
         plot="seisblock.models.respond.plot:figure",
