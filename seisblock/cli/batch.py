@@ -68,22 +68,7 @@ from seisblock.core.registry import solver_names
 )
 @option("--json", "as_json", is_flag=True, section="Output", help="Print a summary of the table as one JSON document on stdout.")
 @option("--quiet", is_flag=True, section="Output", help="Print only errors on stderr.")
-def batch(
-    source: Source,
-    bodies: tuple[str, ...],
-    solver: str,
-    out: Path,
-    resume: bool,
-    force: bool,
-    workers: int | None,
-    cluster: str | None,
-    as_json: bool,
-    excel: bool,
-    quiet: bool,
-    runs: int,
-    seed: int,
-    **options: Any,
-) -> None:
+def batch(source: Source, quiet: bool, **params: Any) -> None:
     """Table of the responses of many bodies to many records: one row for each record, component and body.
 
     RECORD may be a folder, a pattern, a list (@records.txt) or an archive, each station of which is one record. A record that cannot
@@ -91,17 +76,7 @@ def batch(
     degrees and writes one row for each record and body: that of its worst azimuth. Finished records are kept in FILE.journal until
     the table is complete; --resume continues from there.
     """
-    from seisblock.cli.run_batch import BatchRequest, run_batch
+    from seisblock.cli.run_batch import run_batch
 
     with quiet_output(quiet):
-        run_batch(
-            source,
-            BatchRequest(bodies, solver, runs, seed, options),
-            out,
-            resume=resume,
-            force=force,
-            workers=workers,
-            cluster=cluster,
-            as_json=as_json,
-            excel=excel,
-        )
+        run_batch(source, **params)

@@ -44,6 +44,7 @@ def _split(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
 @option("--time", metavar="UTC", section="Record", help="Time of interest instead of EVENT, as 2019-07-06T03:19:53; requires --station.")
 @option(
     "--within",
+    "radius_km",
     type=float,
     callback=_positive,
     metavar="KM",
@@ -54,6 +55,7 @@ def _split(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
 )
 @option(
     "--before",
+    "before_s",
     type=float,
     callback=_non_negative,
     default=30.0,
@@ -64,6 +66,7 @@ def _split(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
 )
 @option(
     "--duration",
+    "duration_s",
     type=float,
     callback=_positive,
     default=300.0,
@@ -74,6 +77,7 @@ def _split(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
 )
 @option(
     "--channel",
+    "channels",
     multiple=True,
     callback=_split,
     metavar="CODE",
@@ -112,22 +116,7 @@ def _split(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
 )
 @option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout, SI units.")
 @option("--quiet", is_flag=True, section="Output", help="Print only errors on stderr.")
-def fetch(
-    event: str | None,
-    stations: tuple[str, ...],
-    time: str | None,
-    within: float,
-    before: float,
-    duration: float,
-    channel: tuple[str, ...],
-    location: str | None,
-    data_center: str,
-    event_center: str,
-    retries: int,
-    directory: Path | None,
-    as_json: bool,
-    quiet: bool,
-) -> None:
+def fetch(retries: int, directory: Path | None, as_json: bool, quiet: bool, **request_values: Any) -> None:
     """Download of records from an FDSN data center into a folder that map and RECORD accept directly.
 
     The folder holds miniSEED and StationXML of each station, and the QuakeML of the event. Run the same command again to resume an
@@ -142,18 +131,7 @@ def fetch(
     from seisblock.report.text import fetch as text_output
     from seisblock.studies import fetch as study
 
-    request = study.FetchRequest(
-        event=event,
-        time=time,
-        stations=stations,
-        radius_km=within,
-        before_s=before,
-        duration_s=duration,
-        channels=channel or DEFAULT_CHANNELS,
-        location=location,
-        data_center=data_center,
-        event_center=event_center,
-    )
+    request = study.FetchRequest(**request_values | {"channels": request_values["channels"] or DEFAULT_CHANNELS})
     target = directory or Path(_folder_name(request))
     with quiet_output(quiet):
         with progress("stations") as advance:

@@ -6,7 +6,6 @@ import hashlib
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
 from functools import partial
 from itertools import groupby, tee
 from pathlib import Path
@@ -41,34 +40,23 @@ if TYPE_CHECKING:
 CSV, PARQUET = ".csv", ".parquet"
 
 
-@dataclass(frozen=True)
-class BatchRequest:
-    """Options of a batch."""
-
-    bodies: tuple[str, ...]
-    solver: str
-    runs: int
-    seed: int
-    options: Mapping[str, Any]
-
-
 def run_batch(
     source: Source,
-    request: BatchRequest,
-    out: Path,
     *,
+    out: Path,
     resume: bool,
     force: bool,
     workers: int | None,
     cluster: str | None,
     as_json: bool,
     excel: bool,
+    **params: Any,
 ) -> None:
-    """Run a batch, write its table and print a summary."""
+    """Run a batch, write its table and print a summary; `params` are bodies, solver, samples and options of the solver."""
     _check_target(out, resume=resume, force=force)
     if excel and out.suffix.lower() == PARQUET:
         raise OutputError("--excel has no effect on a .parquet: omit it, or write .csv")
-    plan, notes = _make_plan(source, request)
+    plan, notes = _make_plan(source, **params)
     names = source.record or (_default_record(),)
     with progress("searching for records"):
         files = expand_names(names, plan.read_options)
@@ -153,20 +141,20 @@ def _solve(
     return reasons
 
 
-def _make_plan(source: Source, request: BatchRequest) -> tuple[Plan, tuple[str, ...]]:
+def _make_plan(source: Source, *, bodies: Sequence[str], solver: str, runs: int, seed: int, **options: Any) -> tuple[Plan, tuple[str, ...]]:
     """Return the plan of a batch and its notes, which are also printed."""
     check_single_window(source)
     components = tuple(name for name in source.component if name.lower() != "all")
     plan, notes = make_plan(
-        read_bodies(request.bodies),
-        request.solver,
+        read_bodies(bodies),
+        solver,
         components=components,
         preparation=make_preparation(source, () if is_all_azimuths(components) else components),
         read_options=source.read_options(single_station=True),
-        runs=request.runs,
-        seed=request.seed,
+        runs=runs,
+        seed=seed,
         strict=source.strict,
-        options={key: value for key, value in request.options.items() if value is not None},
+        options={key: value for key, value in options.items() if value is not None},
     )
     for note in notes:
         warning(note)
