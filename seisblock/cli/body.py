@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -102,7 +103,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     section="Body",
     help="Azimuth of the body's +x, degrees clockwise from north.",
 )
-@option("--name", section="Body", metavar="TEXT", help="Name of the body. [default: file name]")
+@option("--name", "body_name", section="Body", metavar="TEXT", help="Name of the body. [default: file name]")
 @option("--step", type=float, default=10.0, show_default=True, callback=_positive, help="Azimuth step, degrees.")
 @gravity_option
 @option(
@@ -119,16 +120,11 @@ def body(
     kind: str | None,
     width: float | None,
     height: float | None,
-    density: float,
     inset: EdgeWear | None,
-    tolerance: float | None,
-    unit: str,
-    up: str,
-    facing: float,
-    name: str | None,
     step: float,
     gravity: float,
     out: Path | None,
+    **params: Any,
 ) -> None:
     """Rigid-body properties of a 3-D scan: mass, centre of gravity, inertia, support polygon, and alpha and p for every azimuth.
 
@@ -160,10 +156,7 @@ def body(
         return
     assert scan is not None
     with progress("reading {names}", names=[Path(scan).name]):
-        edge_wear = SHARP_EDGES if inset is None else inset
-        scan_result = scan_body(
-            scan, density=density, inset=edge_wear, tolerance=tolerance, unit=unit, up=up, facing=facing, body_name=name
-        )
+        scan_result = scan_body(scan, inset=SHARP_EDGES if inset is None else inset, **params)
     directions = scan_azimuths(scan_result.body, step_deg=step, gravity=gravity)
     if out is not None:
         write_text(out, scan_to_toml(scan_result))
@@ -188,4 +181,4 @@ def _check_subject(scan: str | None, kind: str | None, width: float | None, heig
     elif width is None or height is None:
         raise click.UsageError(gettext("--kind requires --width and --height"))
     else:
-        reject_with("--kind", ["density", "inset", "tolerance", "unit", "up", "facing", "name", "step", "gravity"])
+        reject_with("--kind", ["density", "inset", "tolerance", "unit", "up", "facing", "body_name", "step", "gravity"])

@@ -90,13 +90,8 @@ DEFAULT_RUNS = 50
 def map(  # noqa: A001 - the command's name
     source: Source,
     output: OutputOptions,
-    gravity: float,
     cemetery: str | None,
     survey: Path | None,
-    solver: str | None,
-    vertical: bool | None,
-    runs: int | None,
-    seed: int,
     workers: int | None,
     geojson: Path | None,
     html: Path | None,
@@ -134,7 +129,7 @@ def map(  # noqa: A001 - the command's name
         if path is not None:
             check_text_suffix(path, form)
     surveyed_places = None if survey is None else read_surveys(survey)
-    model = _station_model(cemetery, params, solver, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
+    model = _station_model(cemetery, **params)
     if not source.record:
         note_default_record(REAL_SAMPLE, synthetic=False)
     read_options = source.read_options(single_station=True)
@@ -185,9 +180,7 @@ def map(  # noqa: A001 - the command's name
     )
 
 
-def _station_model(
-    cemetery: str | None, params: dict[str, Any], solver: str | None, *, vertical: bool | None, runs: int | None, seed: int, gravity: float
-) -> StationModel | None:
+def _station_model(cemetery: str | None, *, solver: str | None, runs: int | None, seed: int, **params: Any) -> StationModel | None:
     """Return the model at each station: cemetery, body or None."""
     from seisblock.models.respond.options import RespondOptions
     from seisblock.studies.map.station_response import StationBody, StationCemetery
@@ -204,19 +197,17 @@ def _station_model(
         reject_without(lazy_gettext("--block, --width and --height, or --solver"), [*BODY_OPTIONS, "gravity"])
         return None
     if solver not in (None, "respond"):
-        return _station_body(solver, params, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
+        return _station_body(solver, params, runs=runs, seed=seed)
     if params["frequency_vertical"] is not None:
         raise click.UsageError(gettext("--frequency-vertical requires --solver uplift: omit it"))
     choice = choose_free_standing(params)
     info("body: {says}", says=choice.description)
-    options: dict[str, Any] = {"mu": choice.mu, "mu_kinetic": choice.mu_kinetic, "gravity": gravity}
-    options |= {name: params[name] for name in ("restitution", "rocking_restitution", "tenon")}
-    return StationBody(choice.body, RespondOptions(**options, vertical=vertical), DEFAULT_RUNS if runs is None else runs, seed)
+    options: dict[str, Any] = {"mu": choice.mu, "mu_kinetic": choice.mu_kinetic}
+    options |= {name: params[name] for name in ("restitution", "rocking_restitution", "tenon", "vertical", "gravity")}
+    return StationBody(choice.body, RespondOptions(**options), DEFAULT_RUNS if runs is None else runs, seed)
 
 
-def _station_body(
-    solver: str, params: dict[str, Any], *, vertical: bool | None, runs: int | None, seed: int, gravity: float
-) -> StationModel:
+def _station_body(solver: str, params: dict[str, Any], *, runs: int | None, seed: int) -> StationModel:
     """Return a body for a solver other than ``respond``; options that the solver lacks raise an error."""
     from dataclasses import replace
 
@@ -230,12 +221,12 @@ def _station_body(
     given_names = [name for name in OWN_OPTIONS if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
     model = get_solver(solver)
     body_values = {name: params[name] for name in ("surface", "frequency_vertical") if params[name] is not None}
-    vertical_option = {} if vertical is None else {"vertical": vertical}
+    vertical_option = {} if params["vertical"] is None else {"vertical": params["vertical"]}
     model.check_options({**{name: params[name] for name in (*given_names, *body_values) if name not in model.columns}, **vertical_option})
     spec = make_body_spec({**params, **{name: None for name in OWN_OPTIONS if name not in given_names}}, solver)
     spec = replace(spec, parameters={**spec.parameters, **body_values})
     options = {name: params[name] for name in given_names if name not in body_values}
-    placement = model.build_body(spec, {**options, **vertical_option, "gravity": gravity})
+    placement = model.build_body(spec, {**options, **vertical_option, "gravity": params["gravity"]})
     for note in ignored_column_notes(model, [spec]):
         warning(note)
     info("body: {says}", says=placement.name)

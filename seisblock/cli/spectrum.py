@@ -14,6 +14,7 @@ from seisblock.cli.azimuth_sweep import is_azimuth_sweep
 from seisblock.cli.bodies.options import azimuth_option
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
+from seisblock.cli.option_checks import given_flags
 from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
@@ -32,6 +33,13 @@ if TYPE_CHECKING:
 KINDS = ("rocking", "overturning", "sliding", "modes")
 AZIMUTH_KINDS = KINDS[:2]
 """Kinds that accept ``--component all-azimuths``."""
+
+EXCLUSIVE_OPTIONS = ("sizes", "frequency_parameter"), ("height_over_width", "slenderness_rad")
+"""Pairs of options of which one may be given."""
+
+_ROCKING_OPTIONS = ("sizes", "frequency_parameter", "height_over_width", "slenderness_rad", "inset", "restitution", "linear")
+OPTIONS_WITHOUT_EFFECT = {"rocking": ("mu",), "overturning": ("mu",), "sliding": _ROCKING_OPTIONS, "modes": ("linear",)}
+"""Options that a kind of spectrum does not use."""
 
 MIN_SPAN, MAX_SPAN = 0.2, 1.5
 """Smallest and largest default range of friction and b/h."""
@@ -113,17 +121,9 @@ def spectrum(
     output: OutputOptions,
     gravity: float,
     kind: str,
-    mu: tuple[float, ...] | None,
-    sizes: tuple[float, ...] | None,
-    frequency_parameter: tuple[float, ...] | None,
-    height_over_width: tuple[float, ...] | None,
-    slenderness_rad: tuple[float, ...] | None,
-    inset: EdgeWear | None,
-    steps: int,
-    restitution: float | None,
-    linear: bool,
     vertical: bool | None,
     azimuth: tuple[str, ...],
+    **params: Any,
 ) -> None:
     """Rocking spectrum: peak tilt of rectangular blocks over alpha, against size and slenderness, for each component.
 
@@ -135,30 +135,22 @@ def spectrum(
     source = with_azimuths(source, azimuth)
     if is_azimuth_sweep(source) and kind not in AZIMUTH_KINDS:
         raise ParameterError("--component {name} requires --kind {kinds}", name=ALL_AZIMUTHS, kinds=list(AZIMUTH_KINDS))
-    _check_exclusive(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
-    _check_exclusive(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
+    for pair in EXCLUSIVE_OPTIONS:
+        if len(flags := given_flags(pair)) > 1:
+            raise ParameterError("{name} and {other} exclude each other: give only one of them", name=flags[0], other=flags[1])
+    for flag in given_flags(OPTIONS_WITHOUT_EFFECT[kind])[:1]:
+        raise ParameterError("--{name} has no effect with --kind {kind}: omit it", name=flag.removeprefix("--"), kind=kind)
     if kind == "sliding":
-        values = {
-            "sizes": sizes,
-            "frequency-parameter": frequency_parameter,
-            "height-over-width": height_over_width,
-            "slenderness-rad": slenderness_rad,
-            "inset": inset,
-            "restitution": restitution,
-            "linear": linear,
-        }
-        _reject_options(kind, values)
-        _run_sliding(source, output, gravity, mu, vertical)
+        _run_sliding(source, output, gravity, params["mu"], vertical)
         return
     from seisblock.studies.rocking.spectrum import default_sizes, default_slendernesses, size_of, slenderness_of
 
-    diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else None)
-    alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else None)
+    steps, inset = params["steps"], params["inset"] or SHARP_EDGES
+    diagonals = params["sizes"] or (size_of(params["frequency_parameter"], gravity) if params["frequency_parameter"] else None)
+    alphas = params["slenderness_rad"] or (slenderness_of(params["height_over_width"]) if params["height_over_width"] else None)
     if kind == "modes":
-        _reject_options(kind, {"linear": linear})
-        _run_modes(source, output, gravity, (mu, diagonals, alphas, steps), restitution or 0.0, inset or SHARP_EDGES, vertical)
+        _run_modes(source, output, gravity, (params["mu"], diagonals, alphas, steps), params["restitution"] or 0.0, inset, vertical)
         return
-    _reject_options(kind, {"mu": mu})
     from seisblock.cli.write_results import figure_of, write_results
     from seisblock.records._validation import vertical_acts
     from seisblock.report.json.spectrum import document
@@ -166,11 +158,11 @@ def spectrum(
 
     diagonals = default_sizes(steps) if diagonals is None else diagonals
     alphas = default_slendernesses(steps) if alphas is None else alphas
-    options = RockOptions(restitution=restitution, linear=linear, vertical=vertical, gravity=gravity)
-    spectra = list(_spectra(source, diagonals, alphas, inset or SHARP_EDGES, options))
+    options = RockOptions(restitution=params["restitution"], linear=params["linear"], vertical=vertical, gravity=gravity)
+    spectra = list(_spectra(source, diagonals, alphas, inset, options))
     applied_options = replace(options, vertical=vertical_acts((motion for motion, _ in spectra), vertical))
     write_results(
-        document(spectra, kind, applied_options, inset or SHARP_EDGES),
+        document(spectra, kind, applied_options, inset),
         output,
         tables=lambda: text_output.tables(spectra, kind, _wear_note(inset)),
         csv=lambda: text_output.csv_columns(spectra),
@@ -201,13 +193,6 @@ def _spectra(source: Source, sizes: Any, alphas: Any, inset: EdgeWear, options: 
             key=lambda candidate: abs(candidate.horizontal).max(),
         )
         yield replace(strongest, name=ALL_AZIMUTHS), spectrum
-
-
-def _reject_options(kind: str, values: dict[str, Any]) -> None:
-    """Raise an error for options without effect on a kind of spectrum."""
-    for name, value in values.items():
-        if value:
-            raise ParameterError("--{name} has no effect with --kind {kind}: omit it", name=name, kind=kind)
 
 
 def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tuple[float, ...] | None, vertical: bool | None) -> None:
@@ -289,14 +274,8 @@ def _grid_axes(
     return mu, (1.0,) if diagonals is None else diagonals, alphas
 
 
-def _wear_note(inset: EdgeWear | None) -> str:
+def _wear_note(inset: EdgeWear) -> str:
     """Return a note on worn edges, empty for sharp edges."""
-    if not inset or inset == SHARP_EDGES:
+    if inset == SHARP_EDGES:
         return ""
     return lazy_gettext("; edges worn by {share:g} B + {length:g} m per side", share=inset.share, length=inset.length_m)
-
-
-def _check_exclusive(first: Any, name: str, second: Any, second_name: str) -> None:
-    """Raise an error for two mutually exclusive options."""
-    if first and second:
-        raise ParameterError("{name} and {other} exclude each other: give only one of them", name=name, other=second_name)
