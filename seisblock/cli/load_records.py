@@ -9,9 +9,10 @@ from seisblock.cli.console import always, info, note_default_record, warning
 from seisblock.cli.options import Source
 from seisblock.cli.progress import progress, set_task
 from seisblock.cli.verbosity import is_quiet
-from seisblock.core.errors import ComponentError, InputError, ParameterError
+from seisblock.core.errors import InputError, ParameterError
 from seisblock.core.i18n import gettext
 from seisblock.records import Motion, Preparation, Record, motion_of
+from seisblock.records.process import require_horizontals
 
 
 def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: bool = False, use_recording: bool = False) -> list[Record]:
@@ -136,13 +137,9 @@ def check_single_window(source: Source) -> None:
 
 def selected_components(record: Record, source: Source, *, vertical_counts: bool = False) -> tuple[str, ...]:
     """Return the components or azimuths selected by the options."""
-    available = record.codes if vertical_counts else tuple(c.code for c in record.horizontals)
-    requested = source.component
-    if not requested or any(name.lower() == "all" for name in requested):
-        if not available:
-            raise ComponentError("{source}: no horizontal component; available: {codes}", source=record.source, codes=record.codes)
-        return available
-    return requested
+    if source.component and not any(name.lower() == "all" for name in source.component):
+        return source.component
+    return record.codes if vertical_counts else tuple(component.code for component in require_horizontals(record))
 
 
 def selected_motions(record: Record, source: Source) -> Iterator[Motion]:

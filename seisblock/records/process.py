@@ -261,6 +261,13 @@ def select_component(record: Record, name: str) -> Component:
     return component_at_azimuth(record, checks.azimuth(azimuth, error=ComponentError))
 
 
+def require_horizontals(record: Record) -> tuple[Component, ...]:
+    """Return the horizontal components; raise ComponentError if there is none."""
+    if not record.horizontals:
+        raise ComponentError("{source}: no horizontal component; available: {codes}", source=record.source, codes=record.codes)
+    return record.horizontals
+
+
 def largest_horizontal(record: Record) -> Component:
     """Return the horizontal component with the largest peak acceleration; the first of equals.
 
@@ -269,11 +276,7 @@ def largest_horizontal(record: Record) -> Component:
     ComponentError
         If the record has no horizontal component.
     """
-    if not record.horizontals:
-        raise ComponentError(
-            "{source}: no horizontal component; it has {codes}", source=record.source or lazy_gettext("record"), codes=record.codes
-        )
-    return max(record.horizontals, key=_peak)
+    return max(require_horizontals(record), key=_peak)
 
 
 def highpass(record: Record, hz: float) -> Record:

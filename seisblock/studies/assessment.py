@@ -13,7 +13,7 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
-from seisblock.core.errors import ComponentError, ParameterError, SolverError
+from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.i18n import N_
 from seisblock.core.results import Response
 from seisblock.core.typing import Progress
@@ -22,6 +22,7 @@ from seisblock.models.respond.options import RespondOptions
 from seisblock.models.stack.options import StackOptions
 from seisblock.records import Motion, Record, motion_of
 from seisblock.records._validation import Gain
+from seisblock.records.process import require_horizontals
 from seisblock.studies.model_comparison import ModelComparison, ModelResult
 from seisblock.studies.respond.best_estimate import no_slip_friction
 from seisblock.studies.sampling import MOVED_M, PILE_RUNS, RUNS, ParameterVariation, Samples, join_directions, sample
@@ -270,9 +271,7 @@ def _motions(record: Record | Motion, components: Sequence[str], *, several: boo
         if components:
             raise ParameterError("`components` requires a record, found a motion: omit it")
         return [record]
-    names = list(components) or [component.code for component in record.horizontals]
-    if not names:
-        raise ComponentError("{source}: no horizontal component; available: {codes}", source=record.source, codes=record.codes)
+    names = list(components) or [component.code for component in require_horizontals(record)]
     # all components act on a pile in every run
     return [motion_of(record, name) for name in (names if several or components else names[:1])]
 

@@ -24,6 +24,7 @@ from seisblock.readers.options import ReadOptions
 from seisblock.readers.read import read_source
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
+from seisblock.records.process import require_horizontals
 from seisblock.records.qc_report import qc_summary, require_clean
 from seisblock.records.site import (
     Earthquake,
@@ -284,9 +285,7 @@ def _assess_station(
 
 
 def _measure_record(record: Record) -> dict[str, Any]:
-    rows = [component.acceleration for component in record.horizontals]
-    if not rows:
-        raise ParameterError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
+    rows = [component.acceleration for component in require_horizontals(record)]
     peaks = [peak_acceleration(row)[0] for row in rows]
     return {
         "pga_m_s2": max(peaks),

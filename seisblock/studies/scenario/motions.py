@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from seisblock.core import checks
-from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.jma_scale import parse_jma_intensity
 from seisblock.core.limits import MAX_VALUES
@@ -16,8 +16,8 @@ from seisblock.measures.intensity import jma_class
 from seisblock.measures.spectra import response_spectrum
 from seisblock.measures.summary import conventions_of, motion_peaks
 from seisblock.records.motion import Motion, motion_of
-from seisblock.records.process import crop, scale, scale_to_jma
-from seisblock.records.record import Component, Record
+from seisblock.records.process import crop, require_horizontals, scale, scale_to_jma
+from seisblock.records.record import Record
 from seisblock.records.synthetic.suite import synthetic_suite
 
 EARTHQUAKES = ((6.0, 10.0), (6.5, 15.0), (7.0, 20.0), (7.5, 30.0))
@@ -184,7 +184,9 @@ def scale_to_target(record: Record, target: ScenarioTarget) -> Record:
     if target.jma is not None:
         return scale_to_jma(record, target.jma)
     if target.sa_m_s2 is not None:
-        values = [float(response_spectrum(c.acceleration, record.dt, [target.period_s or 0.0]).sa_m_s2[0]) for c in _horizontals(record)]
+        values = [
+            float(response_spectrum(c.acceleration, record.dt, [target.period_s or 0.0]).sa_m_s2[0]) for c in require_horizontals(record)
+        ]
         return scale(record, target.sa_m_s2 / _nonzero(record, max(values)))
     if target.pga_m_s2 is None:
         return scale(record, (target.pgv_m_s or 0.0) / _nonzero(record, _peaks(record)[1]))
@@ -205,21 +207,14 @@ def motion_pairs(records: Sequence[Record]) -> list[tuple[Motion, Motion]]:
     """
     pairs = []
     for record in records:
-        codes = [component.code for component in _horizontals(record)]
+        codes = [component.code for component in require_horizontals(record)]
         pairs.append((motion_of(record, codes[0]), motion_of(record, codes[-1])))
     return pairs
 
 
-def _horizontals(record: Record) -> list[Component]:
-    horizontals = list(record.horizontals)
-    if not horizontals:
-        raise ComponentError("{source}: no horizontal component; available: {codes}", source=record.source, codes=record.codes)
-    return horizontals
-
-
 def _peaks(record: Record) -> tuple[float, float]:
     """Return PGA, m/s^2, and PGV, m/s, each of the horizontal component where it is larger."""
-    peaks = [motion_peaks(c.acceleration, record.dt, conventions_of(record)) for c in _horizontals(record)]
+    peaks = [motion_peaks(c.acceleration, record.dt, conventions_of(record)) for c in require_horizontals(record)]
     return max(peak.pga_m_s2 for peak in peaks), max(peak.pgv_m_s for peak in peaks)
 
 
