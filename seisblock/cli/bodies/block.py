@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -75,28 +75,15 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     sizes = {key: params[key] for key in keys if params.get(key) is not None}
     restitution = params.get("restitution")
     if params.get("block"):
-        if sizes:
-            raise BodyError(
-                "--block and sizes ({sizes}) exclude each other: give only one of them",
-                sizes=["--" + key.replace("_", "-") for key in sizes],
-            )
-        refuse_kind(params)
-        table = read_body_toml(params["block"])
+        table = read_named_block(params, sizes)
         if restitution is None:
             restitution = table_restitution(table, params["block"])
-        check_side(params, table.get("kind"))
         body = body_from_table(table, side=params.get("side") or "short")
         origin = lazy_gettext(body.name)
         if origin != params["block"]:
             origin = lazy_gettext("{name}, from {file}", name=origin, file=params["block"])
     else:
-        check_side(params, None)
-        missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
-        if missing:
-            raise BodyError(
-                "body required ({missing} missing): give --width and --height, or --block NAME|FILE (for example gravestone)",
-                missing=missing,
-            )
+        require_sizes(params, sizes)
         body = of_kind(Block(**sizes), params.get("kind") or "block")
         text = N_("block {width:g} m wide, {height:g} m high")
         if body.depth is not None:
@@ -111,10 +98,23 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     )
 
 
-def refuse_kind(params: Mapping[str, Any]) -> None:
-    """Raise an error for ``--kind`` with a body from a file, which has its own ranges."""
+def read_named_block(params: Mapping[str, Any], sizes: Iterable[str]) -> dict[str, Any]:
+    """Return the description of ``--block``; raise BodyError for sizes beside it, and for ``--kind``: a file has its own ranges."""
+    if flags := ["--" + key.replace("_", "-") for key in sizes]:
+        raise BodyError("--block and sizes ({sizes}) exclude each other: give only one of them", sizes=flags)
     if params.get("kind") is not None:
         raise BodyError("--kind has no effect with --block: use --kind with --width and --height")
+    table = read_body_toml(params["block"])
+    check_side(params, table.get("kind"))
+    return table
+
+
+def require_sizes(params: Mapping[str, Any], sizes: Container[str]) -> None:
+    """Raise BodyError for a body without ``--block`` that has no width or no height, or has a side."""
+    check_side(params, None)
+    if missing := [f"--{key}" for key in ("width", "height") if key not in sizes]:
+        text = "body required ({missing} missing): give --width and --height, or --block NAME|FILE (for example gravestone)"
+        raise BodyError(text, missing=missing)
 
 
 def check_side(params: Mapping[str, Any], kind: str | None) -> None:

@@ -7,9 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.table import BodySpec
-from seisblock.bodies.toml import read_body_toml
-from seisblock.cli.bodies.block import check_side, refuse_kind
-from seisblock.core.errors import ParameterError
+from seisblock.cli.bodies.block import check_side, read_named_block, require_sizes
 from seisblock.core.i18n import lazy_gettext
 
 SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "kind")
@@ -31,7 +29,7 @@ def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
 
     Raises
     ------
-    ParameterError
+    BodyError
         If both sizes and a named body are given, or a required value is missing.
 
     Examples
@@ -44,24 +42,12 @@ def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
     names = (*SIZES, *(name for name in OWN_OPTIONS if name in get_solver(solver).columns))
     values = {key: params[key] for key in names if params.get(key) is not None}
     if params.get("block"):
-        sizes = [key for key in values if key not in ("inset", "kind") and key in SIZES]
-        if sizes:
-            raise ParameterError(
-                "--block and sizes ({sizes}) exclude each other: give only one of them",
-                sizes=["--" + key.replace("_", "-") for key in sizes],
-            )
-        refuse_kind(params)
+        table = read_named_block(params, [key for key in values if key not in ("inset", "kind") and key in SIZES])
         side = {} if params.get("side") is None else {"side": params["side"]}
-        table = read_body_toml(params["block"])
-        check_side(params, table.get("kind"))
         return BodySpec(Path(params["block"]).stem, {**values, **side}, table, params["block"])
-    check_side(params, None)
     if solver == "slide":
+        check_side(params, None)
         return BodySpec(lazy_gettext("object"), values, None, lazy_gettext("the object"))
-    missing = [f"--{key}" for key in ("width", "height") if key not in values]
-    if missing:
-        raise ParameterError(
-            "body required ({missing} missing): give --width and --height, or --block NAME|FILE (for example gravestone)", missing=missing
-        )
+    require_sizes(params, values)
     name = lazy_gettext("block {width:g} x {height:g} m", width=values["width"], height=values["height"])
     return BodySpec(name, values, None, lazy_gettext("the block"))
