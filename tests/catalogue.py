@@ -20,7 +20,7 @@ import seisblock
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.help import paragraphs
-from seisblock.core.i18n import LANGUAGES, LOCALE_DIR
+from seisblock.core.i18n import LANGUAGES, LOCALE_DIR, Message
 from seisblock.samples import list_samples, sample_directory
 from seisblock.validation import cases
 
@@ -133,7 +133,8 @@ def help_messages() -> dict[str, str]:
     for name in ("", *COMMANDS):
         command = main.get_command(context, name) if name else main
         texts = [*paragraphs(command.help or ""), *((COMMANDS[name],) if name else ())]
-        texts += [parameter.help for parameter in command.params if getattr(parameter, "help", None)]
+        helps = (getattr(parameter, "help", None) for parameter in command.params)
+        texts += [text for text in helps if text and not isinstance(text, Message)]  # templates are among the texts of the source
         messages |= {text: f"help of seisblock {name}".strip() for text in texts if text and text not in messages}
     return messages
 

@@ -18,7 +18,7 @@ from seisblock.cli.types import JMA, SIZE, STOREY, WINDOW, FormatType
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
-from seisblock.core.i18n import N_, gettext
+from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.records.floor import Storey
 
 if TYPE_CHECKING:
@@ -242,66 +242,43 @@ _DETAILS = option("--details", is_flag=True, section="Output", help="Print the w
 _QUIET = option("--quiet", is_flag=True, section="Output", help="Print only errors and one line of quality warnings on stderr.")
 
 
-def _record_options(help_text: str) -> Callable[[Function], Function]:
-    """Return a decorator that adds RECORD, with its help text, and the record options to a command."""
+def _record_options(default: str) -> Callable[[Function], Function]:
+    """Return a decorator that adds RECORD, with its default, and the record options to a command."""
+    help_text = lazy_gettext(
+        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: {default}]",
+        default=lazy_gettext(default),
+    )
     record = argument(
         "record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=shell_completion.complete_records, help=help_text
     )
     return lambda function: _collect_options(function, (record, *_RECORD_OPTIONS), Source, "source")
 
 
-record_options = _record_options(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: synthetic_jma.csv, bundled]")
-)
+record_options = _record_options(N_("synthetic_jma.csv, bundled"))
 """RECORD and the options of its selection and preparation, as one ``source``."""
 
-curve_record_options = _record_options(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: none, curve of the rate]")
-)
+curve_record_options = _record_options(N_("none, curve of the rate"))
 """Record options of ``overturn-rate``, which gives a curve without a record."""
 
-displaced_record_options = _record_options(
-    N_(
-        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
-        "[default: synthetic_jma.csv, bundled, with --slid or --jumped; else none]"
-    )
-)
+displaced_record_options = _record_options(N_("synthetic_jma.csv, bundled, with --slid or --jumped; else none"))
 """Record options of ``infer``, which has a default record for displaced objects only."""
 
-harmonic_record_options = _record_options(
-    N_(
-        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
-        "[default: synthetic_jma.csv, bundled; none with --harmonic]"
-    )
-)
+harmonic_record_options = _record_options(N_("synthetic_jma.csv, bundled; none with --harmonic"))
 """Record options of ``uplift``, which has no record under harmonic motion."""
 
-criterion_record_options = _record_options(
-    N_(
-        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
-        "[default: synthetic_jma.csv, bundled; none with --criterion]"
-    )
-)
+criterion_record_options = _record_options(N_("synthetic_jma.csv, bundled; none with --criterion"))
 """Record options of ``stack``, which has no default record in a criterion study."""
 
-real_record_options = _record_options(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: hanmer_springs_2016, bundled]")
-)
+real_record_options = _record_options(N_("hanmer_springs_2016, bundled"))
 """Record options with a recorded motion as default."""
 
-suite_record_options = _record_options(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: records of --suite]")
-)
+suite_record_options = _record_options(N_("records of --suite"))
 """Record options with a synthetic suite as default."""
 
-item_record_options = _record_options(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: data of the paper]")
-)
+item_record_options = _record_options(N_("data of the paper"))
 """Record options of ``paper``, whose items have data of their own."""
 
-scenario_record_options = _record_options(
-    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: suite scaled to the scenario]")
-)
+scenario_record_options = _record_options(N_("suite scaled to the scenario"))
 """Record options of a scenario, whose default records are a suite scaled to its intensity."""
 
 
