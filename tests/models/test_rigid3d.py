@@ -359,8 +359,9 @@ def test_midpoint_step_converges_where_heights_of_a_face_differ_by_round_off():
         *(0.0, 0.0, 0.0524 - 2e-17, 2.731747348226984e-14, 0.3931136579438855, 0.9194898868057102, -5.964116832622059e-15),
         *(-0.2308696800751464, -0.3811210730783106, 0.0, 0.0, 0.0, -0.766333),
     )
-    list_near(scratch.state, math.inf, body, scratch)
-    count = find_contacts(body.constants[GAP], scratch)
+    # as plain Python, which saves seconds of compilation
+    list_near._function(scratch.state, math.inf, body, scratch)
+    count = find_contacts._function(body.constants[GAP], scratch)
     assert count == 4 and 0.0 < np.ptp(scratch.heights[scratch.ids[:4]]) < 1e-14
     for step in 0.001 * 0.5 ** np.arange(6):
-        assert midpoint_step(scratch.state, step, 0.0, 0.0, GRAVITY, count, body, scratch)
+        assert midpoint_step._function(scratch.state, step, 0.0, 0.0, GRAVITY, count, body, scratch)

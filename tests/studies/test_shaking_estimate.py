@@ -204,7 +204,7 @@ def test_jma_intensity_of_stones_equals_direct_posterior():
     """The posterior of the intensity by summation over a grid of intensity and common error, without the program's convolution."""
     estimate = estimate_shaking(counted_survey(AOYAMA, 52, 100))
     k = 2.0 / np.log(10.0)
-    intensity, error = np.linspace(4.5, 8.0, 701), np.linspace(-1.0, 1.0, 401)
+    intensity, error = np.linspace(4.5, 8.0, 351), np.linspace(-1.0, 1.0, 201)
     levels = (intensity[:, None] + error[None, :] - 6.97) / k
     rate = norm.cdf((levels[:, :, None] + np.log(AOYAMA.ratios)) / 0.2).mean(axis=2)
     posterior = (rate**52 * (1.0 - rate) ** 48 * norm.pdf(error / 0.2)).sum(axis=1)
