@@ -17,7 +17,9 @@ import pytest
 import seisblock
 from seisblock import _jit
 from seisblock._jit import cache
-from tests.kernels import KERNEL_PACKAGES, all_kernels
+from seisblock.dynamics.ensemble import Observer
+from seisblock.dynamics.model import Model
+from tests.kernels import KERNEL_PACKAGES, all_kernels, compile_all
 from tests.lengths import all_but_slow
 from tests.trees import syntax_tree
 
@@ -284,6 +286,18 @@ def test_listed_packages_hold_every_kernel():
     """A model that is not listed would be compiled within the first test that runs it."""
     listed = {id(kernel) for name in KERNEL_PACKAGES for kernel in all_kernels(name)}
     assert [kernel._function.__name__ for kernel in all_kernels("seisblock") if id(kernel) not in listed] == []
+
+
+@pytest.mark.skipif(not _jit.ENABLED, reason="kernels are not compiled")
+def test_kernels_passed_by_pointer_are_compiled_as_such(monkeypatch):
+    """The workers of a whole run compiled them as functions of Python, which no test calls, and once more within a test."""
+    functions, pointers = [], []
+    monkeypatch.setattr(_jit.LazyKernel, "compiled", property(lambda kernel: functions.append(kernel)))
+    monkeypatch.setattr(Model, "pointers", property(lambda model: pointers.extend((model.series, model.reset, model.skip))))
+    monkeypatch.setattr(Observer, "pointer", property(lambda observer: pointers.append(observer.observe)))
+    compile_all()
+    assert len(pointers) > 15 and len(functions) > 10
+    assert not {id(kernel) for kernel in functions} & {id(kernel) for kernel in pointers}
 
 
 @pytest.mark.skipif(not _jit.ENABLED, reason="kernels are not compiled")
