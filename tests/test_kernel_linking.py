@@ -1,6 +1,8 @@
 """Kernels called by other kernels are linked unoptimised and optimised once, in the kernel that Python calls."""
 
 import re
+import subprocess
+import sys
 import time
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
@@ -170,3 +172,18 @@ def test_kernel_by_pointer_is_compiled_without_its_call_from_python(chain, monke
     (code,) = fall.exported.inspect_llvm().values()
     assert "@_ZN7cpython" not in code
     assert fall._compiled is None
+
+
+def test_kernels_load_no_blas_and_leave_it_to_other_code():
+    """A kernel runs without ``scipy.linalg``; a product of matrices compiled by the user afterwards finds it."""
+    script = """
+import sys
+import numpy as np
+from seisblock.models.rock.expansion import sine_cosine
+assert sine_cosine(0.0) == (0.0, 1.0)
+assert "scipy.linalg" not in sys.modules
+import numba
+assert (numba.njit(lambda a, b: a @ b)(np.eye(2), 2.0 * np.eye(2)) == 2.0 * np.eye(2)).all()
+assert "scipy.linalg" in sys.modules
+"""
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=300)

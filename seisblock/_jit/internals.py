@@ -10,11 +10,29 @@ import contextlib
 from collections.abc import Iterator
 from typing import Any
 
+import numba.np.linalg
 from numba import _dynfunc
 from numba.core import codegen, compiler, types
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.compiler_machinery import register_pass
 from numba.core.typed_passes import NativeLowering
+
+
+def import_array_functions() -> None:
+    """Import numba's array functions, which load all of ``scipy.linalg`` (0.2 s) only to learn that SciPy is installed.
+
+    Functions that call BLAS check it again when they are compiled.
+    """
+    check = numba.np.linalg.ensure_blas
+    numba.np.linalg.ensure_blas = lambda: None
+    try:
+        from numba.np import arraymath
+    finally:
+        numba.np.linalg.ensure_blas = check
+    arraymath.ensure_blas = check
+
+
+import_array_functions()
 
 
 class UnoptimizedLibrary(codegen.JITCodeLibrary):  # type: ignore[misc]
