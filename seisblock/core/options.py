@@ -200,7 +200,11 @@ def keywords_of(
             inputs = [*args, *(kwargs.pop(parameter.name) for parameter in first[len(args) :] if parameter.name in kwargs)]
             if len(inputs) != len(first):
                 raise TypeError(f"{solve.__name__}() takes {', '.join(parameter.name for parameter in first)} and keyword arguments")
-            return solve(*inputs, make(**kwargs))  # type: ignore[call-arg, arg-type]
+            try:
+                options = make(**kwargs)  # type: ignore[call-arg]
+            except TypeError as error:  # a missing or unknown keyword is one of the function
+                raise TypeError(str(error).replace(f"{make.__name__}.__init__", solve.__name__)) from error
+            return solve(*inputs, options)  # type: ignore[call-arg, arg-type]
 
         parameters = [*first, *inspect.signature(make).parameters.values()]
         solve_with_keywords.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]

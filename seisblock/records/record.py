@@ -12,7 +12,7 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin, PlotMixin
-from seisblock.core.errors import ComponentError, RecordError
+from seisblock.core.errors import ComponentError, KindError, RecordError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import ArrayLike, FloatArray
 from seisblock.records.azimuth import parse_bearing
@@ -174,6 +174,8 @@ class Record(PlotMixin):
             If there are no components, their lengths differ, or a sample is not finite.
         ParameterError
             If an array is not 1-D and numeric.
+        KindError
+            If the components have no codes.
 
         Examples
         --------
@@ -183,6 +185,8 @@ class Record(PlotMixin):
         >>> record.codes, record.duration_s, record.horizontals[0].azimuth_deg
         (('EW', 'UD'), 10.0, 90.0)
         """
+        if not hasattr(components, "items"):
+            raise KindError('expected components by code, {{"NS": array}}, found {found}', found=checks.type_name(components))
         columns = []
         for code, values in components.items():
             array = checks.float_vector("the accelerations", values)

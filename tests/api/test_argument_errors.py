@@ -120,6 +120,7 @@ def test_functions_require_a_body(name):
             lambda: sb.studies.respond_directions(BLOCK, RECORD, options=RespondOptions(mu=0.3), step_deg=0.0),
             "the azimuth step must be positive",
         ),
+        (lambda: sb.Record.from_arrays(np.zeros((3, 9)), dt=0.01), r'expected components by code, \{"NS": array\}, found ndarray'),
         (lambda: sb.records.rotate(RECORD, "NS"), "azimuth must be a finite number of degrees, found NS"),
         (lambda: sb.motion_of(RECORD, None), "no component 'None'; available: NS, EW, UD"),
         (lambda: sb.measures.jma_class("5+"), "the intensity must be a number, found '5\\+'"),
@@ -225,3 +226,12 @@ def test_response_survives_pickling(answer):
     for first, second in zip(came.channels, content.channels, strict=True):
         np.testing.assert_array_equal(first.values, second.values)
     assert came.summary() == content.summary()
+
+
+@pytest.mark.parametrize(
+    ("keywords", "says"), [({}, "missing .* 'mu'"), ({"mu": 0.5, "restitutoin": 0.1}, "unexpected keyword .* 'restitutoin'")]
+)
+def test_keyword_errors_name_the_function_called(keywords, says):
+    """A missing friction was an error of `RespondOptions.__init__`, a class that the caller had never seen."""
+    with pytest.raises(TypeError, match=rf"^solve_respond\(\) .*{says}"):
+        sb.solve_respond(BLOCK, MOTION, **keywords)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import re
 from functools import partial
 from pathlib import Path
 
@@ -244,3 +245,12 @@ def test_infer_warns_of_impossible_survey(document, tmp_path):
     (tmp_path / "odd.csv").write_text("\n".join(rows))
     answer = document("--cemetery", tmp_path / "odd.csv", "--frequency", 2)
     assert any("survey inconsistent with the criterion" in text for text in answer["warnings"])
+
+
+def test_table_of_stones_has_a_line_per_frequency_at_80_columns_in_japanese(run, no_contour):
+    """The last column had no room: every row took two lines, the intensity alone in the second."""
+    lines = run("--cemetery", "aoyama.csv", "--rate", "35/100", "--lang", "ja").stdout.splitlines()
+    first = next(i for i, line in enumerate(lines) if "f (Hz)" in line) + 2
+    rows = lines[first : first + 7]
+    assert [row.split()[0] for row in rows] == ["0.5～3", "0.5", "1", "1.5", "2", "2.5", "3"]
+    assert all(re.search(r"\d \(\d+～\d+\) .*\d \([\d.]+～[\d.]+\) .* [56]. *～?.*\(\d\.\d\)$", row.rstrip()) for row in rows), rows

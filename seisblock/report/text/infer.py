@@ -49,7 +49,7 @@ def estimate_tables(
     if not joint:
         yield from (styled_line(sentence) for sentence in verdicts(name, estimates, gal=gal, level=level))
     speed, unit = velocity_unit(gal=gal)
-    header = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal).name})", "", f"PGV ({unit})", "", "H/B", gettext("JMA intensity"))
+    header = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal).name})", f"PGV ({unit})", "H/B", gettext("JMA intensity"))
     caption = gettext("median and {level:g%} interval; H/B: stones more slender than this overturned", level=level)
     for stones in dict.fromkeys(estimate.stones for estimate in estimates):
         group = [estimate for estimate in estimates if estimate.stones == stones]
@@ -64,10 +64,8 @@ def estimate_tables(
         rows = [
             (
                 gettext("0.5-3") if estimate.frequency_hz is None else f"{estimate.frequency_hz:.3g}",
-                acceleration_cell(estimate.pga_m_s2, gal=gal),
-                _format_interval(estimate.pga_interval_m_s2, acceleration_unit(gal=gal).size),
-                DASH if estimate.pgv_m_s is None else format_number(estimate.pgv_m_s / speed, 3),
-                _format_interval(estimate.pgv_interval_m_s, speed),
+                _with_interval(estimate.pga_m_s2, estimate.pga_interval_m_s2, acceleration_unit(gal=gal).size),
+                _with_interval(estimate.pgv_m_s, estimate.pgv_interval_m_s, speed),
                 DASH if estimate.threshold_ratio is None else f"{estimate.threshold_ratio:.2f}",
                 _intensity(estimate),
             )
@@ -121,6 +119,12 @@ def _format_interval(interval: Interval, unit: float) -> str:
     return (
         f"> {format_number(low / unit, 3)}" if high is None else format_range(format_number(low / unit, 3), format_number(high / unit, 3))
     )
+
+
+def _with_interval(value: float | None, interval: Interval, unit: float) -> str:
+    """Return a median with its interval, or the bound where there is no median."""
+    text = _format_interval(interval, unit)
+    return text if value is None else f"{format_number(value / unit, 3)} ({text})"
 
 
 def _intensity(estimate: ShakingEstimate) -> str:
