@@ -112,6 +112,7 @@ def test_kernels_that_another_command_did_not_need_are_announced(folder):
     assert run(folder) == []
 
 
+@pytest.mark.slow
 def test_processes_that_compile_at_the_same_time_leave_a_sound_cache(tmp_path):
     """Each kernel's folder is renamed into place when it is complete."""
     processes = [start(tmp_path, FIRST) for _ in range(3)]

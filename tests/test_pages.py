@@ -11,7 +11,10 @@ from tests.pages import FENCED, PAGES, ROOT, changed_figures, lines_of, matches,
 
 pytestmark = pytest.mark.usefixtures("computed_once")  # a page and its Japanese one print the same results
 
-SLOW = {"docs/guides/fit.md", "docs/guides/secure_objects.md", "docs/ja/museum.md", "docs/trust.md"}
+SLOW = {
+    *("docs/guides/fit.md", "docs/guides/secure_objects.md", "docs/ja/museum.md", "docs/trust.md"),
+    *("docs/models/stack.md", "docs/tutorials/earthquake_map.md"),
+}
 """Pages whose lines take more than some seconds."""
 
 ELSEWHERE = {"docs/tutorials/from_records_to_a_frequency.md"}

@@ -47,6 +47,7 @@ def test_stack_of_five_spring_stones(benchmark):
 
 
 @pytest.mark.parametrize(("stones", "pga"), [(1, 3.5), (5, 4.6), (5, 3.0)], ids=["one rocks", "the top of five rocks", "five stand"])
+@pytest.mark.slow
 def test_stack_and_mujoco(stones, pga, capsys):
     """Simulated seconds per second of both, in one run, taken in turns: rigid stones at their default step, MuJoCo at 1 and 2 ms.
 

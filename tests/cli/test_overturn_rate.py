@@ -157,6 +157,7 @@ def test_overturn_rate_fit_options_replace_parameters(document):
     assert result["threshold_ratio_reinforced"] == pytest.approx(2.742, abs=5e-4)
 
 
+@pytest.mark.slow
 def test_overturn_rate_criteria_rigid_and_simulated(document, sines):
     """A rigid block needs no fit; simulated stones come close to (9) with inset pivots and say no threshold."""
     words = ("--cemetery", "aoyama.csv", "--pga", 300, "--frequency", 1)

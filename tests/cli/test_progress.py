@@ -124,6 +124,7 @@ def test_kernel_compilation_shows_progress(tmp_path):
     assert remaining_lines(command_output)[-1] == "compiling kernels (first run only, up to 30 s)..."
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("work", WORKS)
 def test_long_steps_show_progress_and_clear_it(work, command_output):
     """Reading, computing, drawing and writing have a progress line; at the end only the messages remain."""
@@ -133,6 +134,7 @@ def test_long_steps_show_progress_and_clear_it(work, command_output):
     assert remaining_lines(on) == off.splitlines()
 
 
+@pytest.mark.slow
 def test_quiet_shows_no_progress(command_output):
     """--quiet leaves a terminal empty."""
     assert command_output[1][QUIET] == ""

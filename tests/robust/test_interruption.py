@@ -120,7 +120,7 @@ def best_of_four(script, words, cwd, text):
     return minimum
 
 
-@pytest.mark.parametrize("names", all_but_slow(COMMANDS, {"a pile on 25 x 25 points"}))
+@pytest.mark.parametrize("names", all_but_slow(COMMANDS, {"a study of sliding"}))
 def test_sigint_ends_command_at_once(names, tmp_path):
     """In the middle of a run that would take minutes: exit 130, one line, no traceback, in half a second."""
     assert (
