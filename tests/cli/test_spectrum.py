@@ -79,6 +79,7 @@ def test_spectrum_writes_table_csv_and_figure(run, tmp_path, kind):
         (["--restitution", "2"], "[0, 1]"),
         (["--mu", "0.2"], "has no effect"),
         (["--kind", "sliding", "--sizes", "1"], "has no effect"),
+        (["--kind", "sliding", "--restitution", "0"], "has no effect"),
         (["--kind", "sliding", "--mu", "-0.1"], "friction"),
         (["--kind", "modes", "--mu", "-0.1"], "friction"),
         (["--kind", "modes", "--linear"], "has no effect"),
