@@ -51,12 +51,12 @@ def test_random_worn_piles_create_no_energy():
     assert 120 < sum(fell) < 170
 
 
-@pytest.mark.parametrize("seed", [1, 6, 35, 45])
+@pytest.mark.parametrize("seed", [1, 6, 26, 35, 45, 53])
 def test_stone_on_contact_grid_leans_on_its_bevel(seed):
-    """Its grid alone held it until it leaned by 45 degrees, when the border above the bevel had long come in."""
+    """Its grid alone held it until it leaned by 45 degrees; its border, which had come in by then, was pushed out with its load: 5e-4."""
     pile, shaking = random_case(seed)
     outcome = solve_stack(pile, shaking, law="rigid", points=5).outcome
-    assert created_energy(pile, outcome) < 1e-4
+    assert created_energy(pile, outcome) < 2e-5
 
 
 @pytest.mark.parametrize("push", [38.0, 42.0, 45.0])

@@ -20,7 +20,7 @@ from seisblock.models.stack.constraint_assembly import (
     max_approach,
     register_slot,
 )
-from seisblock.models.stack.constraint_row import IMPACT_SPEED, IMPULSE, IS_STANDING, NORMAL, RESTITUTION_RATIO
+from seisblock.models.stack.constraint_row import GAP, IMPACT_SPEED, IMPULSE, IS_STANDING, NORMAL, RESTITUTION_RATIO
 from seisblock.models.stack.cylinder import HEIGHT, RADIUS, RIMS, faces_opposed, load_directions, lowest_rim_point, set_rim_contact
 from seisblock.models.stack.face_overlap import IS_LOWEST, MAX_SHARED_POINTS, POINT_NORMAL, face_overlap_points
 from seisblock.models.stack.frames import relative_state
@@ -40,8 +40,8 @@ from seisblock.models.stack.warm_start import (
 
 _t = types()
 
-FACE_PAIR, BOX_PAIR = -2, -1
-"""Kind of the last manifold of a pair: face on face with a cylinder, or box on box."""
+GRID_PAIR, FACE_PAIR, BOX_PAIR = -3, -2, -1
+"""Kind of the last manifold of a pair: face on face with a cylinder, box on box, or hulls after a grid of points."""
 
 MAX_FACE_DEPTH = 1e-4
 """Largest overlap, m, of two faces at which a pair may change from box-on-box to face-on-face contact."""
@@ -262,7 +262,7 @@ def _contacts_pair(count, pair, bodies, dt, pile, memory):
     on_ground = pile.pairs[pair, 1] == ground
     c, p = pile.pairs[pair, 0 if on_ground else 1], pile.pairs[pair, 1 if on_ground else 0]
     relative_state(c, p, bodies, boxes, pile.owner, memory.scratch[2:4], rel)
-    max_gap = max_approach(dt, memory)
+    max_gap, is_left_by_grid = max_approach(dt, memory), memory.pair_states[pair] == GRID_PAIR
     if on_ground and pile.rims[c, 0, RADIUS] > 0.0:
         count = _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memory)
     elif on_ground:
@@ -274,6 +274,10 @@ def _contacts_pair(count, pair, bodies, dt, pile, memory):
         count = faces if faces >= 0 else _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory)
     memory.pair_states[pair] = FACE_PAIR if faces >= 0 else BOX_PAIR
     restitution = pile.pair_constants[pair, RESTITUTION]
+    if is_left_by_grid:
+        # the outer points of the grid stand inside the border, which has come in by then: pushing the stones apart would lift their load
+        for i in range(start, count):
+            memory.constraint_rows[i, GAP] = max(memory.constraint_rows[i, GAP], 0.0)
     if rel[8] > MIN_FACING_COSINE:
         # one stone stands on the other: restitution of the joint, and thresholds of impact by the load
         for i in range(start, count):
@@ -303,7 +307,7 @@ def _contacts_joint(count, j, bodies, dt, pile, memory):
     if is_engaged == 1:
         count = _contacts_joint_points(count, j, rel, bodies, dt, pile, memory)
     leans = is_engaged == 1 and bevel_touches(rel, c, p, k[SIGMA], max_approach(dt, memory), pile)
-    memory.pair_states[joint[PAIR]] = -1 if leans or total[OUTSIDE] > 0.0 else is_engaged
+    memory.pair_states[joint[PAIR]] = 1 if is_engaged == 1 and not leans and total[OUTSIDE] == 0.0 else GRID_PAIR
     return count
 
 

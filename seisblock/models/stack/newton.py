@@ -43,10 +43,10 @@ diverge: high friction may let them grow without bound (Painleve)."""
 ACCURACY = 0.7
 """Error of the velocities, over the tolerance, at which the iterations end."""
 
-FIRST_COMPLIANCE, COMPLIANCE_FACTOR, MIN_COMPLIANCE = 3e-2, 0.3, 1e-3
+FIRST_COMPLIANCE, COMPLIANCE_FACTOR, MIN_COMPLIANCE = 3e-2, 0.5, 1e-3
 """Compliance of a contact over its Delassus block: at first, ratio of successive ones, and smallest."""
 
-STALLED_ITERATIONS, SOFTENING, MAX_COMPLIANCE, EASY_ITERATIONS = 15, 10.0, 0.3, 1
+STALLED_ITERATIONS, SOFTENING, MAX_COMPLIANCE, EASY_ITERATIONS = 8, 10.0, 0.3, 1
 """Iterations without a move of the centres after which the compliance rises, by which factor, and up to which value: the active set of many
 sliding contacts settles sooner when they are soft. The compliance then falls only after a move within so few iterations."""
 
