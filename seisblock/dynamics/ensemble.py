@@ -37,6 +37,7 @@ from seisblock.dynamics.buffers import (
     BatchState,
     Forcing,
     Output,
+    Scratch,
     State,
 )
 from seisblock.dynamics.cancellation import check_cancelled
@@ -44,7 +45,8 @@ from seisblock.dynamics.events import BEGINNING, Instant, Instants, allocate_eve
 from seisblock.dynamics.hybrid import LOOP_POINTERS, allocate_scratch
 from seisblock.dynamics.integration import STEPS_PER_SLICE, initial_state
 from seisblock.dynamics.model import Model
-from seisblock.dynamics.model_api import OBSERVE, observe_nothing
+from seisblock.dynamics.model_api import LANE_FIELDS, N_LANES, OBSERVE, observe_nothing
+from seisblock.dynamics.simd import integrate_in_lanes
 from seisblock.records.motion import Motion
 
 _t = types()
@@ -244,6 +246,10 @@ def integrate_many(
         rows.counters[:, SEGMENT_START], rows.counters[:, SAMPLES_AFTER] = segment.first, segment.samples_after
         row = 0
         work = output, allocate_scratch(model.shape, n_states, segment.acceleration.shape[0])
+        if model.stride is not None:
+            assert observer is NO_OBSERVER
+            integrate_rows_simd(model, forcing, p, rows, *work)
+            continue
         while row < m:
             check_cancelled()
             row = integrate_rows(*model.pointers, observer.pointer, forcing, model.shape, p, rows, *work, observed, row, STEPS_PER_SLICE)
@@ -280,3 +286,17 @@ def _make_output(observer: Observer, samples: int, n_states: int) -> Output:
     tables = allocate_events(EVENT_CAPACITY if observer.size else 0, n_states)
     path, modes = np.empty((size, n_states)), np.empty(size, dtype=np.int64)
     return Output(path, modes, *tables, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))
+
+
+def integrate_rows_simd(model: Model, forcing: BatchForcing, p: FloatArray, rows: BatchState, no_output: Output, scratch: Scratch) -> None:
+    """Integrate all rows to the end of a motion or segment, side by side in lanes."""
+    lane_rows, needs_engine = np.full(N_LANES, -1), np.ones(N_LANES, dtype=np.int64)
+    lane_state = np.zeros(LANE_FIELDS * N_LANES)
+    functions = (*model.pointers, model.stride_pointer)
+    row = 0
+    # the lanes keep their trajectories between the calls
+    while row < p.shape[0] or (lane_rows >= 0).any():
+        check_cancelled()
+        row = integrate_in_lanes(
+            *functions, forcing, model.shape, p, rows, lane_rows, needs_engine, lane_state, no_output, scratch, row, STEPS_PER_SLICE
+        )

@@ -10,6 +10,7 @@ from typing import Any
 from seisblock._jit import function_pointer
 from seisblock.dynamics import hybrid
 from seisblock.dynamics.buffers import Shape
+from seisblock.dynamics.model_api import STRIDE
 
 ORDER = 12
 """Order of the power series; at 100 Hz the next term is below round-off."""
@@ -45,6 +46,8 @@ class Model:
         True if the parameters end in one minimum size per state for the step length control.
     sharp : int
         Number of leading guards that are states set to exact values; small initial values of these are not treated as round-off.
+    stride : compiled function or None
+        Function with the signature ``STRIDE`` that advances many trajectories in parallel between events.
     propagates : bool
         True if ``skip`` also advances moving states from sample to sample.
     """
@@ -61,6 +64,7 @@ class Model:
     skip: Callable[..., Any] = hybrid.no_skip
     has_floors: bool = False
     sharp: int = 0
+    stride: Callable[..., Any] | None = None
     propagates: bool = False
 
     @cached_property
@@ -72,6 +76,12 @@ class Model:
             function_pointer(self.reset, hybrid.RESET),
             function_pointer(self.skip, hybrid.SKIP),
         )
+
+    @cached_property
+    def stride_pointer(self) -> Any:
+        """Function pointer of the stride."""
+        assert self.stride is not None
+        return function_pointer(self.stride, STRIDE)
 
     @cached_property
     def shape(self) -> Shape:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.array_types import MATRIX, READ_ONLY_MATRIX, VECTOR
-from seisblock.dynamics.buffers import FORCING, OUTPUT, STATE
+from seisblock.dynamics.array_types import INTEGERS, MATRIX, READ_ONLY_MATRIX, VECTOR
+from seisblock.dynamics.buffers import BATCH_FORCING, BATCH_STATE, FORCING, OUTPUT, STATE
 
 _t = types()
 
@@ -47,6 +47,17 @@ Called at the end and, without a path, whenever the tables of events are half fu
 def observe_nothing(forcing, p, state, output, observed):
     """Write nothing."""
 
+
+STRIDE = _t.int64(BATCH_FORCING, MATRIX, BATCH_STATE, INTEGERS, INTEGERS, VECTOR, _t.int64)
+"""stride(forcing, parameters, rows, lane_rows, needs_engine, lane_state, max_samples) -> samples passed, summed over the lanes.
+
+Advances the trajectories ``lane_rows`` (row numbers, -1 for none) in parallel from their current samples until one of them needs the
+engine, or for ``max_samples`` samples, by the same operations in the same order as ``series`` and the engine's step. On entry,
+``needs_engine`` marks lanes with a new trajectory; on return, lanes that need the engine, whose sample and state are then written back.
+``lane_state`` is work space kept between calls, ``LANE_FIELDS`` numbers per lane."""
+
+N_LANES, LANE_FIELDS = 16, 24
+"""Number of lanes (two vectors of 512 bits or four of 256 bits) and numbers of work space per lane."""
 
 OFF = float("inf")
 """Value of a guard that is disabled in this mode."""

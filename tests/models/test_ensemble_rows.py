@@ -11,6 +11,7 @@ from seisblock.dynamics import integrate, integrate_many
 from seisblock.models.jump import rocking
 from seisblock.models.rock import model as rock
 from seisblock.models.rock.params import rock_params
+from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.models.slide import model as slide
 from seisblock.models.slide.solve import solve_slide
 from seisblock.models.uplift import model as uplift
@@ -45,33 +46,33 @@ def springs():
 
 
 def rows_of(name):
-    """Return the model, its parameters, the first states and the first mode."""
+    """Return the model of single runs, that of many, their parameters, the first states and the first mode."""
     if name == "rock":
         blocks = [Block(w, h, centroid_offset=0.1 * w * k) for w, h, k in RNG.uniform([0.15, 0.6, -1], [0.5, 2.0, 1], (RUNS, 3))]
         p = [rock.parameters(rock_params(block, shaking(20, 1.0)), 0.01) for block in blocks]
-        return rock.ROCKING, p, np.zeros(2), rock.REST
+        return rock.ROCKING, ROCKING_SIMD_MODEL, p, np.zeros(2), rock.REST
     if name == "slide":
-        return slide.SLIDE, [slide.parameters(base, G) for base in slopes()], np.zeros(4), slide.STICK
+        return slide.SLIDE, slide.SLIDE, [slide.parameters(base, G) for base in slopes()], np.zeros(4), slide.STICK
     if name == "uplift":
         bodies = springs()
         starts = np.array([uplift.static_state(body, G) for body in bodies])
-        return uplift.UPLIFT, uplift.parameters(bodies, G, 0.01), starts, ALL_CORNERS
+        return uplift.UPLIFT, uplift.UPLIFT, uplift.parameters(bodies, G, 0.01), starts, ALL_CORNERS
     stones = [load_two_layer("chozusha")] * 3
     p = [rocking.rocking_parameters(stone, G, "both") for stone in stones]
-    return rocking.ROCKING_MODEL, p, np.zeros(2), rocking.REST
+    return rocking.ROCKING_MODEL, rocking.ROCKING_MODEL, p, np.zeros(2), rocking.REST
 
 
 @pytest.mark.parametrize("name", ["rock", "slide", "uplift", "jump"])
 @pytest.mark.parametrize(("width", "peak"), [(12, 7.0), (40, 9.0)])
 def test_ensemble_rows_equal_single_runs(name, width, peak):
     """Ends, extrema, first events and counts, each row with factors of its own."""
-    model, p, starts, mode = rows_of(name)
+    single, rows, p, starts, mode = rows_of(name)
     motion = shaking(width, peak)
     gains = np.column_stack([RNG.uniform(0.4, 1.3, len(p)), RNG.uniform(-0.3, 0.3, len(p)), RNG.uniform(0.0, 1.0, len(p))])
-    result = integrate_many(model, motion, p, starts, mode, gains=gains)
+    result = integrate_many(rows, motion, p, starts, mode, gains=gains)
     assert result.n_events.any()
     for row in range(len(p)):
-        first = integrate(model, motion, p[row], np.broadcast_to(starts, (len(p), starts.shape[-1]))[row], mode, gains=gains[row])
+        first = integrate(single, motion, p[row], np.broadcast_to(starts, (len(p), starts.shape[-1]))[row], mode, gains=gains[row])
         np.testing.assert_array_equal(result.final[row], first.final)
         np.testing.assert_array_equal(result.extrema[row], first.extrema)
         assert (result.final_mode[row], result.end_time[row], result.n_events[row]) == (first.final_mode, first.end_time, first.n_events)

@@ -2,7 +2,7 @@
 
 With psi = s alpha - theta the equation theta'' = -lever [(g + a_v) sin(psi) + a cos(psi)] ([Housner1963]_, see ``model``) gives the
 coefficients of omega = theta' from those of sin(psi) and cos(psi), and these from (sin psi)' = -omega cos(psi) and
-(cos psi)' = omega sin(psi) (derived here). Without loops the coefficients stay in registers.
+(cos psi)' = omega sin(psi) (derived here). Without loops the coefficients stay in scalar or SIMD registers.
 """
 
 from __future__ import annotations

@@ -16,6 +16,7 @@ from seisblock.models.rock import model
 from seisblock.models.rock.free_rocking import ENDLESS, STANDS, raise_if_endless, trace_free_rocking_batch
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import RockBatchParams, RockParams, rock_params
+from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.records import Motion
 
 
@@ -115,7 +116,9 @@ def rock_verdicts(params: RockBatchParams | Sequence[RockParams], motion: Motion
     runs = max(len(p), len(rows))
     # one block under many gains shares its parameters; the engine expects a row per run
     p = np.repeat(p, runs, axis=0) if len(p) == 1 else p
-    ensemble = integrate_many(model.ROCKING, motion, p, np.zeros(2), model.REST, gains=rows, allow_failures=True)
+    # a single run fills no lanes: the plain model gives the same bits sooner, and its kernels are smaller
+    solver = model.ROCKING if runs == 1 else ROCKING_SIMD_MODEL
+    ensemble = integrate_many(solver, motion, p, np.zeros(2), model.REST, gains=rows, allow_failures=True)
     endings, free_leans = np.empty(runs, dtype=np.int64), np.zeros((runs, 2))
     # failed rows enter free rocking as blocks at rest, so that their states, possibly NaN, are not used
     final, mode = np.where(ensemble.failed[:, None], 0.0, ensemble.final), np.where(ensemble.failed, model.REST, ensemble.final_mode)

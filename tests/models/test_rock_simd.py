@@ -1,4 +1,4 @@
-"""Unrolled series of rocking, and rows of blocks integrated in slices and segments."""
+"""Blocks that rock side by side in lanes move, bit by bit, as each does alone."""
 
 import math
 from dataclasses import fields
@@ -9,9 +9,10 @@ import pytest
 from seisblock.bodies.block_array import rectangular_blocks
 from seisblock.dynamics import Ensemble, integrate_many
 from seisblock.models.rock.expansion import COSINE, OMEGA, SINE, THETA, expand_series, omega_coefficients, sine_cosine
-from seisblock.models.rock.model import ROCKING, TO_LEFT, parameters
+from seisblock.models.rock.model import REST, ROCKING, TO_LEFT, TO_RIGHT, parameters
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
+from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.records import Motion
 
 RNG = np.random.default_rng(17)
@@ -29,20 +30,46 @@ def assert_same(first: Ensemble, second: Ensemble):
             np.testing.assert_array_equal(getattr(first, field.name), getattr(second, field.name), err_msg=field.name)
 
 
-def test_rows_in_slices_and_segments_equal_one_pass_bit_for_bit(monkeypatch):
+@pytest.mark.parametrize("gains", [GAINS, np.array([[1.0, 0.0, 0.0]])], ids=["turned, with the vertical", "along alone"])
+def test_simd_rows_equal_engine_bit_for_bit(gains):
+    """Random blocks, more than there are lanes: some rest, some rock, some pass alpha, some fall; states, extrema, times, counts, stays."""
+    subset = 20 if len(gains) == 1 else 45
+    p = parameters(rock_batch_params(BLOCKS, MOTION), 0.01)[:subset]
+    single = integrate_many(ROCKING, MOTION, p, np.zeros(2), REST, gains=gains)
+    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, np.zeros(2), REST, gains=gains), single)
+    assert (single.final_mode == -1).any() and (single.final_mode >= 0).any() and (single.n_events > 30).any()
+
+
+@pytest.mark.kernel
+def test_simd_with_empty_lanes_equals_engine():
+    """Two blocks that lean: most lanes stay empty."""
+    motion = Motion(MOTION.acceleration[:, 380:460], 0.01)
+    p = parameters(rock_batch_params(BLOCKS, motion), 0.01)[[7, 30]]
+    single = integrate_many(ROCKING, motion, p, [0.05, 0.0], TO_RIGHT, gains=GAINS[:2])
+    assert_same(integrate_many(ROCKING_SIMD_MODEL, motion, p, [0.05, 0.0], TO_RIGHT, gains=GAINS[:2]), single)
+    assert (single.n_events > 0).all()
+
+
+def test_simd_with_initial_state_resumes_bit_for_bit(monkeypatch):
     """From a lean, in slices of a few steps, and through a motion that is given stretch by stretch: the same bits."""
     p = parameters(rock_batch_params(BLOCKS, MOTION, options=RockOptions(restitution=0.97)), 0.01)
     start = np.column_stack([-0.5 * p[:, 4], np.linspace(-0.3, 0.3, len(p))])
     single = integrate_many(ROCKING, MOTION, p, start, TO_LEFT, gains=GAINS)
     monkeypatch.setattr("seisblock.dynamics.ensemble.STEPS_PER_SLICE", 40)
-    assert_same(integrate_many(ROCKING, MOTION, p, start, TO_LEFT, gains=GAINS), single)
+    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, start, TO_LEFT, gains=GAINS), single)
     monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 10)
     monkeypatch.setattr("seisblock.records.motion.SEGMENT_SAMPLES", 71)
-    assert_same(integrate_many(ROCKING, MOTION, p, start, TO_LEFT, gains=GAINS), single)
+    assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, start, TO_LEFT, gains=GAINS), single)
+
+
+def test_linear_equation_uses_engine_bit_for_bit():
+    """Slender blocks by the linear equation: the same bits, too."""
+    p = parameters(rock_batch_params(BLOCKS, MOTION, options=RockOptions(linear=True)), 0.01)
+    assert_same(*(integrate_many(model, MOTION, p, np.zeros(2), REST, gains=GAINS) for model in (ROCKING_SIMD_MODEL, ROCKING)))
 
 
 @pytest.mark.kernel
-def test_sine_and_cosine_match_math_to_one_ulp():
+def test_simd_sine_and_cosine_match_math_to_one_ulp():
     """Within a right angle either way, as math has them."""
     for x in np.concatenate([np.linspace(-math.pi / 2, math.pi / 2, 401), [0.0, 1e-300, -1e-9]]).tolist():
         sine, cosine = sine_cosine(x)
