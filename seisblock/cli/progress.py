@@ -40,6 +40,9 @@ STALE_S = 1.0
 FILE_VARIABLE = "SEISBLOCK_PROGRESS_FILE"
 """Environment variable of a file that holds the current task as JSON, for a program that runs a command: `text`, `completed`, `total`."""
 
+RATE_WINDOW_S = 5.0
+"""Interval between two updates of the speed, s: a collapse is solved a hundred times more slowly than what stood before it."""
+
 MAX_COUNT = 100_000
 """Largest total shown as a count; larger ones are shown as a percentage."""
 
@@ -53,20 +56,30 @@ class Task:
     total: int | None = None
     started: float = field(default_factory=time.monotonic)
 
+    def __post_init__(self) -> None:
+        """Start counting the speed."""
+        self._before = self._last = self.started, 0
+
     def advance(self, completed: int, total: int) -> None:
         """Set the completed and the total number."""
-        self.completed, self.total = completed, total
+        self.completed, self.total, now = completed, total, time.monotonic()
+        # the speed is counted from the last but one of these times, one to two windows ago; a count that starts again starts the speed, too
+        if completed < self._last[1]:
+            self._before = self._last = now, completed
+        elif now - self._last[0] > RATE_WINDOW_S:
+            self._before, self._last = self._last, (now, completed)
 
     def count_text(self) -> str:
         """Return the progress as text."""
         if self.total is None:
             return ""
         count = f"{self.completed}/{self.total}" if self.total <= MAX_COUNT else format_percent(self.completed / self.total)
-        elapsed = time.monotonic() - self.started
+        since, completed = self._before
+        elapsed = time.monotonic() - since
         return (
             count
-            if elapsed < SHOW_DELAY_S or not self.completed
-            else gettext("{counted}, {rate:.3g} per s", counted=count, rate=self.completed / elapsed)
+            if elapsed < SHOW_DELAY_S or self.completed == completed
+            else gettext("{counted}, {rate:.3g} per s", counted=count, rate=(self.completed - completed) / elapsed)
         )
 
 
@@ -232,4 +245,13 @@ def _make_bar(*, has_total: bool) -> Bar:
     columns = TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[count]}", markup=False)
     clock = TimeRemainingColumn() if has_total else TimeElapsedColumn()
     screen = console(stderr=True)
-    return Progress(*columns, clock, console=screen, transient=True, auto_refresh=False, redirect_stdout=False, redirect_stderr=False)
+    return Progress(
+        *columns,
+        clock,
+        console=screen,
+        transient=True,
+        auto_refresh=False,
+        redirect_stdout=False,
+        redirect_stderr=False,
+        speed_estimate_period=2.0 * RATE_WINDOW_S,
+    )

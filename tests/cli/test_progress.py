@@ -5,11 +5,13 @@ import pty
 import re
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
 
 from seisblock import Motion, solve_slide
+from seisblock.cli.progress import Task
 from seisblock.dynamics.cancellation import progress_scope
 from tests.brief_record import brief_record
 
@@ -157,3 +159,20 @@ def test_reported_samples_increase_to_the_last():
     assert {total for _, total in text} == {motion.samples - 1}
     assert text[-1] == (motion.samples - 1, motion.samples - 1)
     assert np.diff([completed for completed, _ in text]).max() < motion.samples / 3
+
+
+def test_rate_is_that_of_the_last_seconds(monkeypatch):
+    """A pile that collapses after 20 s is solved more slowly by a factor of 100; a count that starts again has its own rate."""
+    now = 100.0
+    monkeypatch.setattr(time, "monotonic", lambda: now)
+    task, completed = Task("solving", started=now), 0.0
+    for tick in range(500):
+        now += 0.1
+        completed += 100.0 if tick < 200 else 1.0
+        task.advance(int(completed), 100_000)
+    assert task.count_text() == "20300/100000, 10 per s"
+    task.advance(0, 100_000)
+    for completed in range(0, 100, 5):
+        now += 0.1
+        task.advance(completed + 5, 100_000)
+    assert task.count_text() == "100/100000, 50 per s"
