@@ -157,7 +157,7 @@ def test_tilted_scan_is_levelled(tmp_path, box_scan):
     assert scan.body.height == pytest.approx(0.9, abs=1e-8)
     assert min_slenderness(scan.body)[0] == pytest.approx(min_slenderness(box_scan.body)[0], abs=1e-7)
     assert np.array(scan.body.inertia) == pytest.approx(np.array(box_scan.body.inertia), abs=1e-6)
-    assert any("turned by 4 degrees" in doubt for doubt in scan_qc_messages(scan))
+    assert any("turned by 4°" in doubt for doubt in scan_qc_messages(scan))
 
 
 def test_base_is_hull_of_contact_points(tmp_path):

@@ -482,7 +482,7 @@ def test_limits_are_those_that_were_chosen():
     for module, limits in LIMITS.items():
         assert {name: getattr(module, name) for name in limits} == limits
         numbers = {name for name, value in vars(module).items() if name.isupper() and name[0] != "_" and isinstance(value, (int, float))}
-        assert numbers - {"BLOCK", "PIECE", "GAL", "KINE"} == set(limits)
+        assert numbers - {"BLOCK", "PIECE", "GAL", "KINE", "MAX_LATITUDE", "MAX_LONGITUDE"} == set(limits)
 
 
 @pytest.mark.parametrize(

@@ -59,7 +59,9 @@ def refresh():
     """Write the keys of every command down; refuse where one went or changed without a step of the version."""
     for command in document_commands():
         if missing_lines(command):
-            sys.exit(f"{command}: step its version in versions.py first; these went or changed: {'; '.join(missing_lines(command))}")
+            sys.exit(
+                f"{command}: raise the `version` of its DocumentSchema first; these went or changed: {'; '.join(missing_lines(command))}"
+            )
         text = "\n".join(lines(command)) + "\n"
         STORED.mkdir(exist_ok=True)
         (STORED / f"{command}.txt").write_text(text, encoding="utf-8")

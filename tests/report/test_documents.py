@@ -160,7 +160,7 @@ def test_every_document_kind_has_schema_and_example(documents):
 @pytest.mark.parametrize("command", document_commands())
 def test_document_keys_equal_stored_keys(command):
     """Keys of documents equal the stored ones, or the version was increased."""
-    assert missing_lines(command) == [], f"{command}: keys went or changed; step its version in present/documents/versions.py"
+    assert missing_lines(command) == [], f"{command}: keys went or changed; raise the `version` of its DocumentSchema"
     assert stored_lines(command) == lines(command), "write the keys down: python -m tests.report.document_keys"
 
 

@@ -153,8 +153,8 @@ def variation_text(probability: Probability, block: Block) -> str:
     versions, ranges = probability.versions, probability.ranges or ParameterRanges()
     return gettext(
         "Parameter variation only (model error not included): {sizes}, {edges}, {friction}, restitution ±{restitution:g}, "
-        "amplitude ±{amplitude}, azimuth ±{azimuth:g}°. In 490 shaking-table runs of two granite rocks, the rock overturned in 3 % "
-        "of the runs for which no computed sample did, and stood in 2 % of those for which all did.",
+        "amplitude ±{amplitude}, azimuth ±{azimuth:g}°. In 490 shaking-table runs of two granite rocks, 3 % overturned where "
+        "no computed sample did, and 2 % stood where all did.",
         sizes=lazy_gettext("width and height ±{share}", share=format_share(versions.size)),
         edges=sampled_edges(block, probability.ranges, versions.inset),
         friction=(ranges.friction_text if versions.mu else None) or lazy_gettext("friction ±{share}", share=format_share(versions.mu)),
