@@ -10,6 +10,7 @@ from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core.errors import BodyError, ComponentError, KindError, ParameterError
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import solve_respond
+from seisblock.models.respond.outcome import PERTURBATIONS
 from seisblock.records import Motion
 from seisblock.records.record import Component, Record
 from tests.models.respond.cases import SLENDER, at_lean, sequence, shaking, still_ground
@@ -207,3 +208,26 @@ def test_times_of_cropped_record_keep_record_clock():
     assert shifted.outcome.events[0]["time_s"] == 20.0
     np.testing.assert_allclose(shifted.time, early.time + 20.0)
     assert shifted.outcome.end_s == pytest.approx(early.outcome.end_s + 20.0)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_sensitive_result_is_that_of_all_four_changes(seed):
+    """The smaller changes are left out only where they change no verdict: at distances of 1e-7 to 1e-2 from the overturning factor."""
+    rng = np.random.default_rng(seed)
+    width = rng.uniform(0.2, 1.0)
+    block, options = Block(width, width * rng.uniform(1.2, 5.0)), {"mu": rng.uniform(0.3, 1.0), "restitution": rng.choice([0.0, 0.3])}
+    motion = shaking(100 + seed, 1.0, seconds=8.0)
+
+    def verdict(factor):
+        scaled = Motion(factor * motion.acceleration, motion.dt)
+        outcome = solve_respond(block, scaled, sensitivity=False, **options).outcome
+        return outcome.overturned_towards
+
+    low, high = 1.0, 64.0
+    while high - low > 1e-7 * high:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if verdict(middle) else (middle, high)
+    for distance in 10.0 ** rng.uniform(-7.0, -2.0, 4):
+        factor = high * (1.0 + rng.choice([-1.0, 1.0]) * distance)
+        changes = {verdict(factor * (1.0 + change)) != verdict(factor) for change in PERTURBATIONS}
+        assert solve_respond(block, Motion(factor * motion.acceleration, motion.dt), **options).outcome.sensitive is any(changes)
