@@ -3,7 +3,7 @@
 from seisblock.samples import sample_path
 
 HEADER_LINES, RATE_HZ = 7, 100
-SHAKING_S = 22, 29
+SHAKING_S = 25, 28
 """The strongest shaking, which overturns gravestones and lets two-layer blocks jump."""
 
 

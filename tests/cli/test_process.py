@@ -225,6 +225,16 @@ def examples(name):
 SECONDS = ("fetch", "fit", "infer", "measure", "report", "rigid3d", "rock", "scenario", "secure", "spectrum", "stack", "uplift", "validate")
 """Commands some of whose examples take seconds."""
 
+SMALLER = {
+    "secure": {"scenario.secure.COARSE": 5, "scenario.secure.QUICK_RUNS": 20},
+    "stack": {"gravestone_criterion.PGAS": (4.0, 8.0, 12.0)},
+    "fit": {
+        f"fit.importance_sampling.{constant}": value
+        for constant, value in {"INITIAL_BLOCKS": 16, "SEARCH_BLOCKS": 32, "PROPOSAL_BLOCKS": 64, "MAX_PROPOSALS": 2}.items()
+    },
+}
+"""Studies of examples that are to run, not to be precise: constants below `seisblock.studies` by command."""
+
 
 @pytest.mark.parametrize("name", ["", *(pytest.param(name, marks=[pytest.mark.slow] * (name in SECONDS)) for name in COMMANDS)])
 def test_help_examples_run(name, workshop, monkeypatch, request):
@@ -234,6 +244,8 @@ def test_help_examples_run(name, workshop, monkeypatch, request):
         request.getfixturevalue("centers")
     if name in {"scenario", "secure"}:
         request.getfixturevalue("few_runs")
+    for target, value in SMALLER.get(name, {}).items():
+        monkeypatch.setattr(f"seisblock.studies.{target}", value)
     lines = examples(name)
     assert len(lines) >= 2
     for line in lines:
