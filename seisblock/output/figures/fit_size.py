@@ -17,7 +17,7 @@ from matplotlib.transforms import Bbox
 
 from seisblock.core.errors import OutputError
 from seisblock.core.units import LENGTH_UNITS, FigureSize
-from seisblock.output.figures.fonts import use_fonts
+from seisblock.output.figures.fonts import set_fonts, use_fonts
 from seisblock.output.figures.style import (
     DPI,
     INCH,
@@ -28,6 +28,7 @@ from seisblock.output.figures.style import (
     StyledFigure,
     add_figure_legend,
     add_legend,
+    panel_titles,
 )
 from seisblock.output.text.wrap import display_width, wrap_text
 
@@ -61,7 +62,7 @@ def min_size(fits: Callable[[float], bool], too_small: float, default_size: floa
     >>> format_inches(size, "mm"), len(trials)
     ('128 mm', 7)
     """
-    for size in (round_up(default_size, unit), round_up(MAX_SCALE * max(default_size, too_small), unit)):
+    for size in (round_up(default_size, unit), max_size(too_small, default_size, unit)):
         if size <= too_small:
             continue
         if fits(size):
@@ -80,6 +81,11 @@ def min_size(fits: Callable[[float], bool], too_small: float, default_size: floa
         else:
             too_small = middle
     return size
+
+
+def max_size(too_small: float, default_size: float, unit: str) -> float:
+    """Return the upper limit of the search, inch."""
+    return round_up(MAX_SCALE * max(default_size, too_small), unit)
 
 
 def unit_step(unit: str) -> float:
@@ -142,6 +148,10 @@ MAX_HIDDEN = 0.25
 """Largest fraction of a panel covered by a legend inside it."""
 
 
+STACKED_WIDTH = 0.4
+"""Fraction of the default width below which columns are mostly stacked: the largest height is tried first (less than the font scale)."""
+
+
 def fit_figure_size(
     figure: Figure, *, size: tuple[float, float] | FigureSize | None = None, dpi: int = DPI, title: str | None = None
 ) -> Figure:
@@ -195,9 +205,13 @@ def _fit(fig: StyledFigure, target_size: FigureSize, title: str | None) -> Style
     """Return a figure fitted to a size; raise OutputError with the minimum height, or the minimum size if no height fits."""
     layout = Layout.of(fig)
     wide, high = target_size.width / INCH, target_size.height / INCH
-    if layout.fits(wide, high):
-        return fig
-    min_length = min_size(lambda tall: layout.fits(wide, tall), high, layout.height, target_size.unit)
+    min_length = None
+    # text has its smallest size at every height of so narrow a figure: if the largest height does not fit, none does
+    feasible = fig.narrow_layout is None or wide >= STACKED_WIDTH * layout.width
+    if feasible or layout.fits(wide, max_size(high, layout.height, target_size.unit)):
+        if layout.fits(wide, high):
+            return fig
+        min_length = min_size(lambda tall: layout.fits(wide, tall), high, layout.height, target_size.unit)
     if min_length is not None:
         raise OutputError(
             "figure text does not fit in {width} x {height}: minimum height at this width {least}",
@@ -212,7 +226,7 @@ def _fit(fig: StyledFigure, target_size: FigureSize, title: str | None) -> Style
     min_length = min_size(
         lambda broad: layout.fits(broad, round_up(max(high, share * broad), target_size.unit)), wide, layout.width, target_size.unit
     )
-    min_width = round_up(MAX_SCALE * max(layout.width, wide), target_size.unit) if min_length is None else min_length
+    min_width = max_size(wide, layout.width, target_size.unit) if min_length is None else min_length
     raise OutputError(
         "figure text does not fit in {width} x {height} nor at any height of this width: use {enough} x {tall}",
         width=format_inches(wide, target_size.unit),
@@ -284,12 +298,13 @@ class Layout:
             _redraw_legends(fig, self.keys, share, {})
             with use_fonts(fig, fig.locale):
                 fig.get_layout_engine().execute(fig)  # type: ignore[union-attr]
-            if _layout_failed(caught):
-                return False
-            changes = _legend_changes(fig)
-            if changes:
-                _redraw_legends(fig, self.keys, share, changes)
-            _wrap_labels(fig)
+                if _layout_failed(caught):
+                    return False
+                changes = _legend_changes(fig)
+                if changes:
+                    _redraw_legends(fig, self.keys, share, changes)
+                    set_fonts(fig, fig.locale)
+                _wrap_labels(fig)
             # as in drawing: move legends above titles, then lay out again
             fig.lift_legends()
             fig.draw_without_rendering()
@@ -340,18 +355,15 @@ def _panel_sides(fig: StyledFigure) -> Iterator[float]:
 def _wrap_labels(fig: StyledFigure) -> None:
     """Wrap labels and titles longer than their panels; hide annotations that do not fit in their panel."""
     renderer = fig.canvas.get_renderer()  # type: ignore[attr-defined]
-    with use_fonts(fig, fig.locale):
-        for axis in fig.axes:
-            box = axis.get_window_extent(renderer)
-            panel_title = axis.get_title(loc="left")
-            titles = [text for text in axis.get_children() if isinstance(text, Text) and panel_title and text.get_text() == panel_title]
-            for text in (axis.xaxis.label, *titles):
-                _wrap_text(text, box.width, text.get_window_extent(renderer).width)
-            upright = axis.yaxis.label
-            for name in axis.texts:
-                name_box = name.get_window_extent(renderer)
-                name.set_visible(not name.get_clip_on() or (box.x0 <= name_box.x0 and name_box.x1 <= box.x1))
-            _wrap_text(upright, box.height, upright.get_window_extent(renderer).height)
+    for axis in fig.axes:
+        box = axis.get_window_extent(renderer)
+        for text in (axis.xaxis.label, *panel_titles(axis)):
+            _wrap_text(text, box.width, text.get_window_extent(renderer).width)
+        upright = axis.yaxis.label
+        for name in axis.texts:
+            name_box = name.get_window_extent(renderer)
+            name.set_visible(not name.get_clip_on() or (box.x0 <= name_box.x0 and name_box.x1 <= box.x1))
+        _wrap_text(upright, box.height, upright.get_window_extent(renderer).height)
 
 
 def _wrap_text(text: Text, available: float, extent: float) -> None:
@@ -383,11 +395,12 @@ def has_overlaps(figure: Figure) -> bool:
 
 def _visible_texts(figure: Figure) -> list[Text]:
     """Return the visible text artists, without tick labels outside the view."""
+    parts = figure.findobj()  # one search for both kinds: it takes as long as a tenth of a layout
     off_scale: set[int] = set()
-    for ruler in figure.findobj(Axis):
+    for ruler in (part for part in parts if isinstance(part, Axis)):
         first, last = sorted(ruler.get_view_interval())
         for tick in (*ruler.get_major_ticks(), *ruler.get_minor_ticks()):
             if not first <= tick.get_loc() <= last:
                 off_scale |= {id(tick.label1), id(tick.label2)}
-    texts = (text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip())
+    texts = (part for part in parts if isinstance(part, Text) and part.get_visible() and part.get_text().strip())
     return [text for text in texts if id(text) not in off_scale]

@@ -144,11 +144,8 @@ def build_localized(build: Callable[[], Figure]) -> Figure:
         return build()
 
 
-@contextmanager
-def use_fonts(figure: Figure, locale: str) -> Iterator[None]:
+def set_fonts(figure: Figure, locale: str) -> None:
     """Set the font of every text of a figure, and disable mathtext in names (dollar signs).
-
-    Inside the block matplotlib's warnings on missing weights and glyphs are suppressed.
 
     Parameters
     ----------
@@ -167,6 +164,19 @@ def use_fonts(figure: Figure, locale: str) -> Iterator[None]:
             if typeface is not None:
                 text.set_fontfamily([typeface.family, LATIN])
                 text.set_fontweight(typeface.nearest(text.get_fontweight()))
+
+
+@contextmanager
+def use_fonts(figure: Figure, locale: str) -> Iterator[None]:
+    """Set the fonts of a figure; inside the block matplotlib's warnings on missing weights and glyphs are suppressed.
+
+    Parameters
+    ----------
+    figure : Figure
+        Changed in place.
+    locale : "en" or "ja"
+    """
+    set_fonts(figure, locale)
     logger = logging.getLogger("matplotlib.font_manager")
     level = logger.level
     logger.setLevel(logging.ERROR)

@@ -137,8 +137,7 @@ class StyledFigure(Figure):
             if key is None:
                 continue
             box = key.get_window_extent()
-            titles = [text for text in axes.findobj(Text) if text.get_text() and text.get_text() == axes.get_title(loc="left")]
-            for title in titles:
+            for title in panel_titles(axes):
                 title_box = title.get_window_extent()
                 if box.overlaps(title_box.expanded(1.0, 0.5)):
                     offset = ScaledTranslation(0.0, (title_box.y1 - box.y0) / self.dpi, self.dpi_scale_trans)
@@ -223,6 +222,12 @@ def style_axes(axis: Axes) -> None:
     axis.set_axisbelow(True)
     axis.spines[["top", "right"]].set_visible(False)
     axis.tick_params(labelsize=TICK_LABEL_SIZE)
+
+
+def panel_titles(axis: Axes) -> list[Text]:
+    """Return the text artist of the left-aligned title of a panel, if it has one."""
+    content = axis.get_title(loc="left")
+    return [part for part in axis.get_children() if isinstance(part, Text) and part.get_text() == content] if content else []
 
 
 def label_axes(axis: Axes, x: str = "", y: str = "") -> None:
