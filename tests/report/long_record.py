@@ -285,6 +285,7 @@ def stations(subject=None):
     return Stations((*answers, *nowhere), Earthquake(None, 35.0, 139.0, 10.0, 6.8, "test"), "2024-01-01 16:10:00 JST"), subject
 
 
+@functools.cache
 def fitted_block():
     """Return the block that explains what one did under twelve pulses."""
     return fit_block(shaken(12, 0), runs=1)

@@ -74,6 +74,16 @@ def film(model, pictures=200, **options):
     return FILMS[model](solution, np.linspace(*SPANS[model](solution), pictures), **options)
 
 
+@functools.cache
+def drawn_stage(model, lang="en", *, gal=True):
+    """Return the picture of the middle of a film, drawn once: every test of texts, curves and scales looks at the same one."""
+    with use_locale(lang):
+        stage = build_figure(film(model, gal=gal), gal=gal)
+        stage.show(100, "real time")
+        stage.fig.canvas.draw()
+    return stage
+
+
 def test_every_model_has_an_animation():
     """Every model with motion has an animation that is tested here."""
     assert set(FILMS) == {name for name in solver_names() if get_solver(name).animate}
@@ -83,8 +93,7 @@ def test_every_model_has_an_animation():
 @pytest.mark.parametrize("model", FILMS)
 def test_frames_draw_every_point_of_the_curve(model):
     """F1: the curves in .gif and .mp4 hold every point of the response in view."""
-    result, stage = response(model), build_figure(film(model))
-    stage.fig.canvas.draw()
+    result, stage = response(model), drawn_stage(model)
     for label, values in CURVES[model](result).items():
         (axis,) = [axis for axis in stage.panels if " ".join(axis.get_ylabel().split("\n")) == label]
         lines = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
@@ -127,7 +136,7 @@ def data_of(page):
 def test_animation_titles_name_the_record(model):
     """Station, local time and direction stand above pictures and pages as above figures."""
     animation = film(model)
-    assert build_figure(animation).fig.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST   NS")
+    assert drawn_stage(model).fig.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST   NS")
     page = animation_html(animation, AnimationOptions())
     assert '<p class="soft">X012 小さな町 $a_b$ · 2024-01-01 16:10:00 JST · NS' in page
     assert ("scaled by 1.6" in page) == (model == "jump")
@@ -147,10 +156,7 @@ def test_animation_title_does_not_give_away_the_end(model, tmp_path):
 @pytest.mark.parametrize("model", FILMS)
 def test_frame_texts_do_not_overlap(model, lang):
     """Titles, clock, legends and labels stand by themselves, within the picture."""
-    with use_locale(lang):
-        stage = build_figure(film(model))
-        stage.show(100, "real time")
-        stage.fig.canvas.draw()
+    stage = drawn_stage(model, lang)
     renderer = stage.fig.canvas.get_renderer()
     boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in visible_texts(stage.fig) if text.get_text().strip()]
     width, height = stage.fig.bbox.width, stage.fig.bbox.height
@@ -180,9 +186,7 @@ def test_acceleration_strip_uses_requested_unit(model):
 @pytest.mark.parametrize(("gal", "unit", "size"), [(True, "cm", 0.01), (False, "m", 1.0)])
 def test_magnified_window_uses_requested_unit(gal, unit, size):
     """cm, or with --si m, in pictures; a page's bar of scale knows which, too."""
-    animation = film("jump", 40)
-    stage = build_figure(animation, gal=gal)
-    stage.fig.canvas.draw()
+    animation, stage = film("jump", 40), drawn_stage("jump", gal=gal)
     axis = stage.actors[1].trails[0][1].axes
     assert (axis.get_xlabel(), axis.get_ylabel()) == (f"x ({unit})", f"z ({unit})")
     for ruler in (axis.xaxis, axis.yaxis):
@@ -196,9 +200,7 @@ def test_cursor_is_drawn_in_first_and_last_frame(model):
     """It stands on the edge of its strips there: every row of them has it, and it has a head."""
     animation = film(model, 3)
     first, middle, last = (np.asarray(picture, dtype=int) for picture in animation_frames(animation, 1.0, AnimationOptions()))
-    stage = build_figure(animation)
-    stage.fig.canvas.draw()
-    for axis in stage.panels:
+    for axis in drawn_stage(model).panels:
         box = axis.get_window_extent()
         rows = slice(round(first.shape[0] - box.y1) + 2, round(first.shape[0] - box.y0) - 2)
         begins, ends = (
@@ -213,9 +215,7 @@ def test_cursor_is_drawn_in_first_and_last_frame(model):
 @pytest.mark.parametrize("model", FILMS)
 def test_scale_bar_length_equals_its_label(model, gal):
     """The scale bar has a round length, drawn true to scale in each frame, inside the scene."""
-    animation = film(model, 3, gal=gal)
-    stage = build_figure(animation, gal=gal)
-    stage.fig.canvas.draw()
+    stage = drawn_stage(model, gal=gal)
     line, text = stage.actors[0].bar
     number, unit = text.get_text().split()
     left, right = line.get_xdata()
@@ -232,9 +232,9 @@ def test_scale_bar_length_equals_its_label(model, gal):
 @pytest.mark.parametrize("model", FILMS)
 def test_legend_names_every_shaded_band_once(model):
     """Whatever is shaded in a picture is named in it, once."""
-    animation = film(model, 2)
+    animation = film(model)
     expected = {animation.phase_label(phase.name) for phase in animation.visible_phases if phase.name in animation.colours}
-    key = build_figure(animation).panels[0].get_legend()
+    key = drawn_stage(model).panels[0].get_legend()
     texts = [text.get_text() for text in key.get_texts()] if key else []
     assert sorted(texts) == sorted(expected)
 
@@ -422,9 +422,7 @@ def test_worn_block_comes_to_rest_on_ground():
 @pytest.mark.parametrize("model", FILMS)
 def test_strip_labels_fit_their_strips(model, lang):
     """Labels of strips below each other do not run into one another; a foot that is nowhere in the window is not in its key."""
-    with use_locale(lang):
-        stage = build_figure(film(model, pictures=2))
-        stage.fig.canvas.draw()
+    stage = drawn_stage(model, lang)
     assert all(axis.yaxis.label.get_window_extent().height <= 1.12 * axis.get_window_extent().height for axis in stage.panels)
     for actor in (actor for actor in stage.actors if getattr(actor, "key", None)):
         left, right, bottom, top = actor.scene.close

@@ -123,8 +123,18 @@ def test_small_size_fits_or_is_rejected_with_sufficient_size(name, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("lang", ["en", "ja"])
-@pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two", "uplift", "uplift, two"])
+@pytest.mark.parametrize(
+    ("name", "lang"),
+    [
+        ("rock", "en"),
+        ("rock, two", "ja"),
+        ("slide, two", "en"),
+        ("jump, two", "ja"),
+        ("respond, two", "en"),
+        ("uplift", "ja"),
+        ("uplift, two", "en"),
+    ],
+)
 def test_panels_stack_vertically_at_column_width(name, lang):
     """A column of 85 mm, as high as a page, holds histories, phase planes and both components with the title."""
     with use_locale(lang):
