@@ -20,8 +20,11 @@ SEEDS = (
 )  # fmt: skip
 """Between them 72 changes of mode, hops that end, trips, jams, and user's factors, some of them lowered."""
 
-LONG = (36, 44, 103, 238, 301)
-"""Up to 876 changes of mode in one run."""
+LONG = (44, 103, 301)
+"""Up to 647 changes of mode in one run."""
+
+EXPENSIVE = (3, 9, 15, 38, 47, 60, 62, 66, 67, 98)
+"""Half the time of the seeds below a hundred: either hundreds of changes of mode, of which LONG has enough, or a slow toppling."""
 
 CHAOTIC = (16, 19, 49, 117)
 """Cases of hundreds of bounces that part from themselves when the block is 1e-15 higher."""
@@ -92,7 +95,7 @@ def test_recorded_motions_equal_dop853(body, stem, up, scale):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", sorted(set(range(100)).union(LONG) - set(SEEDS) - set(CHAOTIC)))
+@pytest.mark.parametrize("seed", sorted(set(range(100)).union(LONG) - set(SEEDS) - set(CHAOTIC) - set(EXPENSIVE)))
 def test_more_random_objects_equal_dop853(seed):
     """The same for seventy more."""
     agrees(some_case(seed), program(some_case(seed)), reference(seed))

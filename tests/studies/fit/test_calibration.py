@@ -1,5 +1,7 @@
 """Credible intervals have their nominal coverage for experiments drawn from the prior."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,7 @@ BOUNDS = {"alpha": (0.1, 0.5)}
 PULSES = 10
 
 
+@cache
 def truth_in_interval(number):
     """Return whether the intervals of alpha, scatter and lapses, and the half of alpha's, hold the truth of one experiment."""
     rng = np.random.default_rng([5, number])
