@@ -22,7 +22,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads what a pr
 AT_ONCE = 0.5
 """Processor time, s, that may pass between the signal and the end of the run; of the processor, so that a busy machine does not count."""
 
-WELL_UNDER_WAY = 1.0
+WELL_UNDER_WAY = 0.5
 """Processor time, s, that the run itself has had before it is interrupted."""
 
 COMMANDS = {

@@ -30,7 +30,7 @@ def equals_document(cell, value):
 
 SINGLE = {
     "respond": ("", "--width {width} --height {height} --mu {mu} {inset} --runs 0"),
-    "rock": ("", "--width {width} --height {height} {inset}"),
+    "rock": ("", "--width {width} --height {height} {inset} --perturb 2"),
     "slide": ("", "--mu {mu}"),
 }
 SLENDER = {"width": "20cm", "height": "1m", "mu": "0.6", "inset": ""}
