@@ -79,8 +79,8 @@ def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: fl
     Examples
     --------
     >>> corners = np.array([(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 2.0)])
-    >>> found = find_resting_pose(corners, corners.mean(axis=0), tolerance=0.01, source="a box")
-    >>> found.tilt, found.touching
+    >>> pose = find_resting_pose(corners, corners.mean(axis=0), tolerance=0.01, source="a box")
+    >>> pose.tilt, pose.touching
     (0.0, 4)
     """
     turn, tilt = _levelling_rotation(_support_plane_slopes(vertices, centre))

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from seisblock.bodies.block import Block
 from seisblock.bodies.factory import block_for_motion
 from seisblock.bodies.table import BodySpec, resolve_kinds
 from seisblock.core._display import exact_repr
@@ -231,8 +230,8 @@ def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Pl
         motion = motion_of(record, worst)
     except SeisblockError as error:
         return {**row, REASON: error.message}
-    # the base is projected on the azimuth; a scan has its own block in each
-    aligned = replace(body, body=body.body.block_toward(float(worst))) if isinstance(body.body, Block) else body
+    aligned = _align(body, motion, plan.model)
+    assert isinstance(aligned, SolverBody)
     return {
         **row,
         "component": motion.name,

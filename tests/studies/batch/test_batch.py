@@ -209,3 +209,12 @@ def test_batch_rejects_invalid_arguments(folder):
         seisblock.run_batch("records", 3.5j, "rock")
     with pytest.raises(ParameterError, match="at least one"):
         seisblock.run_batch("records", [], "rock")
+
+
+def test_all_azimuths_of_a_scan_solve_its_block_of_the_worst_azimuth(folder):
+    """A scan of the table of bodies has a result in its worst azimuth, with the width of its block there."""
+    (folder / "scans.csv").write_text("name,body,mu\nboulder,boulder,0.5\n", encoding="utf-8")
+    answer = run("batch records/r1.csv --bodies scans.csv --solver respond --component all-azimuths --out scans_out.csv --quiet")
+    assert answer.exit_code == 0, answer.stderr
+    (row,) = table(folder / "scans_out.csv")
+    assert row["outcome"] and float(row["width_m"]) > 0.0
