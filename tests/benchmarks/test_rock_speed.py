@@ -15,7 +15,7 @@ from seisblock.models.rock.solve import solve_rock
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
 from seisblock.studies.rocking.spectrum import default_sizes, default_slendernesses, rocking_spectrum
-from tests.benchmarks.test_slide_speed import TIMES_FASTER_ALONE, best, share
+from tests.benchmarks.test_slide_speed import TIMES_FASTER_ALONE, best
 from tests.crosscheck.test_slide import G, pyslammer_motion
 
 SAMPLES = 10_000
@@ -105,7 +105,9 @@ def test_solve_rock_is_faster_than_pyslammer(benchmark):
     motion, second, block = Motion.from_arrays(G * a, dt), GroundMotion(a, dt, "300 s"), from_slenderness(0.25, 2.14)
     answer = benchmark(solve_rock, block, motion)
     assert answer.outcome.impacts > 100 and not answer.outcome.overturned
+    if benchmark.disabled:
+        return
     ratio = best(lambda: RigidAnalysis(0.1, second), repeats=5) / best(lambda: solve_rock(block, motion), repeats=20)
     benchmark.extra_info["times_faster"] = ratio
     print(f"rock: a single answer {ratio:.0f} times faster than pySLAMMER's")
-    assert ratio > TIMES_FASTER_ALONE * share(benchmark)
+    assert ratio > TIMES_FASTER_ALONE

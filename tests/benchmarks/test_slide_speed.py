@@ -21,9 +21,6 @@ STUDY_S = 2.0
 TIMES_FASTER = 100.0
 TIMES_FASTER_ALONE = 20.0
 
-SHARED = 0.1
-"""Share of the speed asked for where benchmarks are disabled and the machine may be busy with other tests."""
-
 
 def strong_motion(samples=10_000, dt=0.01):
     """Return 100 s of shaking with a strong phase of 30 s, peak 3 m/s^2, vertical half of that."""
@@ -44,11 +41,6 @@ def best(work, repeats=7):
     return min(times)
 
 
-def share(benchmark):
-    """Return the share of the speed that this run has to reach."""
-    return 1.0 if benchmark.stats is not None else SHARED
-
-
 def test_slide_kernel_per_sample(benchmark):
     """The kernel needs at most 20 ns per sample and parameter set, over the friction coefficients of a study, with vertical motion."""
     motion = strong_motion()
@@ -59,10 +51,12 @@ def test_slide_kernel_per_sample(benchmark):
         return integrate_many(SLIDE, motion, p, np.zeros(4), STICK, gains=[1.0, 0.0, 1.0])
 
     benchmark.pedantic(work, rounds=5, warmup_rounds=1)
+    if benchmark.disabled:
+        return
     per_sample = best(work) / (mus.size * motion.samples) * 1e9
     benchmark.extra_info["ns_per_sample"] = per_sample
     print(f"slide kernel: {per_sample:.1f} ns per sample and parameter set on one core")
-    assert per_sample < NANOSECONDS_PER_SAMPLE / share(benchmark)
+    assert per_sample < NANOSECONDS_PER_SAMPLE
 
 
 @pytest.mark.slow
@@ -74,10 +68,12 @@ def test_slide_study_of_10000_points(benchmark):
         return slide_study(np.linspace(0.02, 0.4, 50), motion, kappa=np.linspace(0.3, 1.0, 20), vertical=np.linspace(0.0, 2.0, 10))
 
     benchmark.pedantic(work, rounds=1, warmup_rounds=1)
+    if benchmark.disabled:
+        return
     seconds = best(work, repeats=2)
     benchmark.extra_info["study_s"] = seconds
     print(f"slide study: 10 000 points of a 100 s record in {seconds:.2f} s")
-    assert seconds < STUDY_S / share(benchmark)
+    assert seconds < STUDY_S
 
 
 @pytest.mark.slow
@@ -96,12 +92,14 @@ def test_slide_study_is_faster_than_pyslammer(benchmark):
         return [RigidAnalysis(ky, second) for _, second in records for ky in subset]
 
     benchmark.pedantic(mine, rounds=3, warmup_rounds=1)
+    if benchmark.disabled:
+        return
     reference = best(theirs, repeats=3) / len(subset)
     ratio = reference / (best(mine) / rows.size)
     single = reference / best(lambda: [solve_slide(sliding_base(0.1, one_way=True), motion) for motion, _ in records])
     benchmark.extra_info["times_faster"] = ratio
     print(f"slide: {ratio:.0f} times faster per analysis than pySLAMMER's; {single:.0f} times for a single one with its time histories")
-    assert ratio > TIMES_FASTER * share(benchmark)
+    assert ratio > TIMES_FASTER
 
 
 def test_solve_slide_is_faster_than_pyslammer(benchmark):
@@ -113,7 +111,9 @@ def test_solve_slide_is_faster_than_pyslammer(benchmark):
     second, base = GroundMotion(-motion.horizontal / G, motion.dt, "300 s"), sliding_base(0.1, one_way=True)
     curves = benchmark(lambda: solve_slide(base, motion).channels)
     assert len(curves) == 7
+    if benchmark.disabled:
+        return
     ratio = best(lambda: RigidAnalysis(0.1, second), repeats=5) / best(lambda: solve_slide(base, motion).channels, repeats=50)
     benchmark.extra_info["times_faster"] = ratio
     print(f"slide: a single answer {ratio:.0f} times faster than pySLAMMER's")
-    assert ratio > TIMES_FASTER_ALONE * share(benchmark)
+    assert ratio > TIMES_FASTER_ALONE
