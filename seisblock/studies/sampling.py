@@ -57,6 +57,9 @@ MOVED_M = 0.01
 MAX_RESTITUTION = 0.95
 """Upper limit of sampled restitutions: near 1 a body bounces without end."""
 
+MAX_ROCKING_RESTITUTION = 0.9999
+"""Upper limit of sampled ratios of angular velocities of a rocking block: with 1, hops of 1e-7 s go on to the end of the record."""
+
 HEIGHT, INSET, MU, RESTITUTION, AMPLITUDE, AZIMUTH, WIDTH, SLENDERNESS, STONES = range(9)
 """Columns of the draws; from ``STONES`` on, one column per stone of a pile, for its friction."""
 
@@ -374,9 +377,9 @@ def sample_rock_params(
     options : RockOptions
     """
     params = rock_batch_params(sample_blocks(block, variation, draws), motion, options)
-    # a restitution above 1 would create energy
     factor = 1.0 + variation.restitution * draws[:, RESTITUTION, None]
-    return replace(params, restitutions=np.minimum(params.restitutions * factor, 1.0))
+    limit = np.maximum(params.restitutions, MAX_ROCKING_RESTITUTION)
+    return replace(params, restitutions=np.minimum(params.restitutions * factor, limit))
 
 
 def sample_pile(body: Pile, variation: ParameterVariation, draw: FloatArray) -> Pile:

@@ -19,6 +19,7 @@ from seisblock.models.respond.constants import ROCKING_RESTITUTION
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.params import RespondParams, rigid_body
 from seisblock.models.respond.solve import solve_respond
+from seisblock.models.rock.solve import solve_rock
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
@@ -110,6 +111,14 @@ def test_probability_without_variation_equals_outcome(name, factor):
     falls = solve_respond(body, motion, mu=0.5).outcome.overturned
     assert respond_probability(body, motion, options=RespondOptions(mu=0.5), runs=2, versions=NOTHING_VARIES).overturned == float(falls)
     assert perturb(body, motion, 2, spread=NOTHING_VARIES).overturned == 2 * rock_verdict(body, motion).overturned
+
+
+def test_hops_of_rocking_samples_end_before_the_record():
+    """Pushed over its threshold for a moment, the sample of highest restitution comes to rest; one of restitution 1 would hop on."""
+    block, draws = Block(0.2, 1.0), draw_samples(200, 0)
+    motion = Motion.from_arrays(9.80665 * 0.2 * np.array([0.0, 1.001, *[0.8] * 60]), 0.01)
+    restitutions = sample_rock_params(block, motion, ParameterVariation(), draws).restitutions
+    assert solve_rock(block, motion, restitution=float(restitutions.max())).outcome.impacts < 100_000
 
 
 @pytest.mark.slow
