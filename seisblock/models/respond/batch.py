@@ -21,8 +21,8 @@ from seisblock.dynamics.cancellation import cancel_scope, current_events
 from seisblock.dynamics.ensemble import NO_OBSERVER, Observer
 from seisblock.dynamics.model import Model
 from seisblock.models.respond import constants
-from seisblock.models.respond.params import FLAT_RATE, SMALL_RATE, Initial, RespondBatchParams, RespondParams
-from seisblock.models.respond.run import check_settling, zero_motion
+from seisblock.models.respond.params import FLAT_SHARE, Initial, RespondBatchParams, RespondParams
+from seisblock.models.respond.run import are_rest, check_settling, zero_motion
 from seisblock.records import Motion
 from seisblock.records._validation import validate_motion
 
@@ -198,7 +198,7 @@ def solve_runs(
     p = _parameter_rows(params, motion.dt, duration)
     runs = _integrate_rows(model, motion, p, initial_states, template.first_mode, gains, observer)
     record_mode = runs.mode.copy()
-    moving = ~runs.failed & (record_mode >= 0) & (record_mode % constants.TENON_OFFSET != constants.REST)
+    moving = ~runs.failed & (record_mode >= 0) & ~are_rest(record_mode)
     if settle_s > 0.0 and moving.any():
         ground = zero_motion(settle_s)
         p = _parameter_rows(params, ground.dt, duration + settle_s, ground_at_rest=True)
@@ -220,7 +220,7 @@ def _run_batch(
     is_overturned = mode == constants.OVERTURNED
     return RespondBatchResult(
         overturned=is_overturned,
-        settled=~runs.failed & ((mode == constants.SETTLED) | ((mode >= 0) & (mode % constants.TENON_OFFSET == constants.REST))),
+        settled=~runs.failed & are_rest(mode),
         gave_up=runs.failed | (mode == constants.GAVE_UP),
         direction=np.where(is_overturned, np.sign(final[:, constants.THETA]), 0.0).astype(np.int64),
         final_displacement_m=final[:, constants.X],
@@ -252,7 +252,7 @@ def _integrate_rows(
     rows = np.flatnonzero(result.failed)
     if rows.size:
         flat = p[rows]
-        flat[:, constants.FLAT_RATE] = FLAT_RATE / SMALL_RATE * flat[:, constants.SMALL_RATE]
+        flat[:, constants.FLAT_RATE] = FLAT_SHARE * flat[:, constants.SMALL_RATE]
         repeated = attempt(rows, flat)
         for item in fields(Runs):
             getattr(result, item.name)[rows] = getattr(repeated, item.name)

@@ -223,18 +223,20 @@ def has_grown(end: RunEnd, changed: RunEnd) -> bool:
     return abs(changed_tilt - tilt) > share * tilt or largest_change > share * displacement
 
 
-def is_sensitive(end: RunEnd, repeat: Callable[[float], RunEnd]) -> bool:
-    """Return whether a change of the motion by up to 2e-6 changes the verdict; `repeat` solves the run with a change."""
+def are_sensitive(ends: Sequence[RunEnd], repeat: Callable[[list[int], float], Iterable[RunEnd]]) -> list[bool]:
+    """Return which verdicts a change of the motion by up to 2e-6 changes; `repeat` solves runs, by number, with a change."""
     # chaotic runs change their verdict under changes far below the accuracy of any record
-    grown = False
+    sensitive, rows, grown = [False] * len(ends), list(range(len(ends))), set[int]()
     for k, change in enumerate(PERTURBATIONS):
-        if k == 2 and not grown:
-            return False
-        changed = repeat(change)
-        if changed.verdict != end.verdict:
-            return True
-        grown = grown or has_grown(end, changed)
-    return False
+        # the smaller changes only where one of the larger ones has grown
+        rows = [row for row in rows if not sensitive[row] and (k < 2 or row in grown)]
+        if not rows:
+            break
+        for row, changed in zip(rows, repeat(rows, change), strict=True):
+            sensitive[row] = changed.verdict != ends[row].verdict
+            if has_grown(ends[row], changed):
+                grown.add(row)
+    return sensitive
 
 
 def scalar_results(end: RunEnd, params: RespondParams, start_s: float, sensitive: bool | None) -> dict[str, Any]:
@@ -270,9 +272,10 @@ def build_outcome(run: Run, params: RespondParams, start_s: float, repeat: Calla
     """Return the outcome of a run that starts at `start_s`; `repeat` solves it with a change for the sensitivity test."""
     events = mode_changes(run, start_s)
     end = run_end(run, {event["mode"] for event in events})
+    sensitive = None if repeat is None else are_sensitive([end], lambda _, change: [repeat(change)])[0]
     release_times = run.events.time[(run.events.guard == constants.RELEASE) & (run.events.target == constants.FLIGHT)]
     return RespondOutcome(
-        **scalar_results(end, params, start_s, None if repeat is None else is_sensitive(end, repeat)),
+        **scalar_results(end, params, start_s, sensitive),
         time_in_mode_s=time_in_mode(phases(events, start_s + end.time)),
         events=events,
         tenon_left_s=float(start_s + release_times[0]) if release_times.size else None,

@@ -46,8 +46,8 @@ restitution of 0.3 to 0.9."""
 SMALL_RATE = 1e-12
 """v_z over sqrt(g R): rebound velocity at which bouncing ends."""
 
-FLAT_RATE = 1e-10
-"""The same for both corners together in a run that sets bodies flat."""
+FLAT_SHARE = 100.0
+"""The same for both corners together in a run that sets bodies flat, over SMALL_RATE."""
 
 JAM_WARNING_RATIO = 0.999
 """Ratio of kinetic friction to Painleve's limit from which the cone guard is active."""
@@ -141,7 +141,7 @@ class RespondParams(DisplayMixin):
     rocking_share : float
         Ratio of angular velocities in a rocking impact over Housner's ratio, used without `rocking_restitution`; 1: impact law.
     sets_flat : bool
-        True in the repetition of a run whose impacts do not end: FLAT_RATE acts.
+        True in the repetition of a run whose impacts do not end: FLAT_SHARE acts.
     """
 
     rigid_body: RigidBody
@@ -208,7 +208,7 @@ class RespondParams(DisplayMixin):
         row = [
             self.gravity, dt, self.mu, self.mu_kinetic, self.restitution, ratio, body.right, body.left, body.height, body.gyration_squared,
             self.tenon, float(self.mu_kinetic >= JAM_WARNING_RATIO * body.friction_limit), float(ground_at_rest), self.small_rate,
-            FLAT_RATE / SMALL_RATE * self.small_rate if self.sets_flat else 0.0,
+            FLAT_SHARE * self.small_rate if self.sets_flat else 0.0,
             MAX_IMPACTS + MAX_IMPACTS_PER_SECOND * duration_s,
         ]  # fmt: skip
         return np.array(row + [value for point in self.further_points for value in point])

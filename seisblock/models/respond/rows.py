@@ -9,7 +9,6 @@ import numpy as np
 
 from seisblock._jit import kernel
 from seisblock.core.registry import RowResult, SolverBody
-from seisblock.core.typing import BoolArray, FloatArray
 from seisblock.dynamics.buffers import N_EVENTS, N_FLUSHED
 from seisblock.dynamics.ensemble import Observer
 from seisblock.dynamics.events import EVENT_FROM, EVENT_TO
@@ -17,9 +16,8 @@ from seisblock.dynamics.model_api import OBSERVE
 from seisblock.models.respond.batch import Runs, solve_runs
 from seisblock.models.respond.constants import FLIGHT, GAVE_UP, IMPACTS, MODES, START, TENON_OFFSET, THETA, X
 from seisblock.models.respond.names import run_warnings
-from seisblock.models.respond.options import RespondOptions
-from seisblock.models.respond.outcome import PERTURBATIONS, RunEnd, has_grown, scalar_results
-from seisblock.models.respond.params import RespondParams, motion_gains
+from seisblock.models.respond.outcome import RunEnd, are_sensitive, scalar_results
+from seisblock.models.respond.params import motion_gains
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
 
@@ -56,25 +54,6 @@ def _run_end(runs: Runs, row: int) -> RunEnd:
     return RunEnd(int(runs.mode[row]), runs.final[row].tolist(), float(runs.time[row]), rotations, displacements, flights, modes)
 
 
-def _are_sensitive(
-    params: Sequence[RespondParams], ends: Sequence[RunEnd], motion: Motion, gains: FloatArray, options: RespondOptions
-) -> BoolArray:
-    """Return which verdicts a change of the motion changes, as :func:`~seisblock.models.respond.outcome.is_sensitive` does."""
-    sensitive, rows, grown = np.zeros(len(params), dtype=bool), list(range(len(params))), set[int]()
-    for k, change in enumerate(PERTURBATIONS):
-        # the smaller changes only where one of the larger ones has grown
-        rows = [row for row in rows if not sensitive[row] and (k < 2 or row in grown)]
-        if not rows:
-            break
-        runs = solve_runs([params[row] for row in rows], motion, (1.0 + change) * gains[rows], options.initial, options.settle_s)
-        for place, row in enumerate(rows):
-            changed = _run_end(runs, place)
-            sensitive[row] = changed.verdict != ends[row].verdict
-            if has_grown(ends[row], changed):
-                grown.add(row)
-    return sensitive
-
-
 def solve_respond_rows(bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowResult]:
     """Return scalar results and warnings of bodies without tenons by name; runs without a result are left out, for their single run."""
     options = bodies[0].options
@@ -85,10 +64,16 @@ def solve_respond_rows(bodies: Sequence[SolverBody], motion: Motion) -> dict[str
     runs = solve_runs(params, motion, gains, options.initial, options.settle_s, OBSERVER)
     rows = np.flatnonzero(~(runs.failed | (runs.mode == GAVE_UP) | np.isnan(runs.observed[:, FLIGHTS]))).tolist()
     ends = [_run_end(runs, row) for row in rows]
-    row_params = [params[row] for row in rows]
-    flags = _are_sensitive(row_params, ends, motion, gains[rows], options).tolist() if options.sensitivity else [None] * len(rows)
+
+    def repeat(places: list[int], change: float) -> list[RunEnd]:
+        changed = [rows[place] for place in places]
+        factors = (1.0 + change) * gains[changed]
+        repeated = solve_runs([params[row] for row in changed], motion, factors, options.initial, options.settle_s)
+        return [_run_end(repeated, place) for place in range(len(changed))]
+
+    flags = are_sensitive(ends, repeat) if options.sensitivity else [None] * len(rows)
     result: dict[str, RowResult] = {}
-    for row, end, body_params, flag in zip(rows, ends, row_params, flags, strict=True):
-        values = {**scalar_results(end, body_params, motion.start_s, flag), "tenon_left_s": None}
-        result[bodies[row].name] = values, run_warnings(end.mode, end.final, body_params, values["end_s"], options.settle_s)
+    for row, end, flag in zip(rows, ends, flags, strict=True):
+        values = {**scalar_results(end, params[row], motion.start_s, flag), "tenon_left_s": None}
+        result[bodies[row].name] = values, run_warnings(end.mode, end.final, params[row], values["end_s"], options.settle_s)
     return result

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from seisblock.core.errors import ParameterError, SolverError
-from seisblock.core.typing import FloatArray, IntArray
+from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.dynamics import EventLog, Trajectory, integrate
 from seisblock.models.respond import constants
 from seisblock.models.respond.params import Initial, RespondParams
@@ -160,11 +160,16 @@ def _integrate(
         return attempt(replace(params, sets_flat=True))
 
 
+def are_rest(modes: IntArray) -> BoolArray:
+    """Return which final modes are rest."""
+    return (modes == constants.SETTLED) | ((modes >= 0) & (modes % constants.TENON_OFFSET == constants.REST))
+
+
 def is_rest(mode: int) -> bool:
     """Return whether a final mode is rest."""
-    return mode == constants.SETTLED or (mode >= 0 and mode % constants.TENON_OFFSET == constants.REST)
+    return bool(are_rest(np.array(mode)))
 
 
 def is_moving(mode: int) -> bool:
     """Return whether a body in this mode at the end of the record is still in motion."""
-    return mode >= 0 and mode % constants.TENON_OFFSET != constants.REST
+    return mode >= 0 and not is_rest(mode)
