@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -211,6 +212,9 @@ def _read_all(names: str | Path | Iterable[str | Path], *, is_list: bool) -> tup
     bodies: list[BodySpec] = []
     notes: list[Message] = []
     for name in map(str, paths):
+        if os.path.isdir(name):  # noqa: PTH112 - never raises, whatever the name
+            text = "{name} is a folder: give a table of bodies (.csv, .xlsx), a TOML file that describes one body, or a bundled body"
+            raise BodyError(text, name=name)
         if is_table(name):
             rows, ignored = _read_body_table(name, is_list=is_list)
             bodies += rows
@@ -232,10 +236,7 @@ def _read_body_file(name: str) -> BodySpec:
 
 def _read_body_table(name: str, *, is_list: bool) -> tuple[list[BodySpec], tuple[str, ...]]:
     """Return the bodies of a table and the headings of ignored columns."""
-    path = Path(name)
-    if path.is_dir():
-        raise BodyError("{name} is a folder: give a CSV file with one body on each line", name=name)
-    sheet = read_sheet(path, name)
+    sheet = read_sheet(Path(name), name)
     if len(sheet.rows) < 2:
         raise BodyError("{name} contains no bodies: a header and one line per body are required", name=name)
     table = parse_table(sheet, is_list=is_list)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import click
@@ -12,7 +11,7 @@ from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, excel_option, record_options
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import MU, Count
+from seisblock.cli.types import MU, Count, OutputFile
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS
@@ -51,7 +50,7 @@ from seisblock.core.registry import solver_names
 @gravity_option
 @option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=OutputFile(),
     required=True,
     section="Output",
     metavar="FILE",

@@ -18,7 +18,7 @@ from seisblock.cli.options import check_callback, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import INSET, LENGTH
+from seisblock.cli.types import INSET, LENGTH, OutputFile
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core import checks
 from seisblock.core.errors import OutputError
@@ -108,7 +108,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
 @gravity_option
 @option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=OutputFile(),
     section="Output",
     metavar="FILE",
     help="Write the body (.toml) for the --block of other commands.",
@@ -138,14 +138,12 @@ def body(
     from seisblock.bodies.scan.azimuths import scan_azimuths
     from seisblock.bodies.scan.scan import scan_body
     from seisblock.bodies.scan.toml import scan_to_toml
-    from seisblock.output.io.atomic import check_target, write_text
+    from seisblock.output.io.atomic import write_text
     from seisblock.report.json.body import document
     from seisblock.report.text import body as text_output
 
-    if out is not None:
-        if out.suffix.lower() != ".toml":
-            raise OutputError("{path}: a body file must end in .toml", path=out)
-        check_target(out)
+    if out is not None and out.suffix.lower() != ".toml":
+        raise OutputError("{path}: a body file must end in .toml", path=out)
     if kind is not None and width is not None and height is not None:
         text = kind_to_toml(kind, width, height)
         if out is None:

@@ -14,7 +14,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, output_options, suite_record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, MU, Count
+from seisblock.cli.types import FLOATS, MU, Count, OutputFile
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, MAX_VALUES
 from seisblock.core.registry import solver_names
@@ -132,14 +132,14 @@ METHODS = ("stripes", "ida", "cloud")
 )
 @option(
     "--pelicun",
-    type=click.Path(path_type=Path),
+    type=OutputFile(),
     section="Output",
     metavar="FILE.csv",
     help="Write rows for pelicun (fragility.csv of its DLML), and FILE.json with their metadata.",
 )
 @option(
     "--nrml",
-    type=click.Path(path_type=Path),
+    type=OutputFile(),
     section="Output",
     metavar="FILE.xml",
     help="Write a fragility model for OpenQuake, NRML 0.5.",

@@ -21,7 +21,7 @@ from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, displaced_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
+from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count, OutputFile
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_RUNS
@@ -64,7 +64,7 @@ TWIST_OPTIONS = (
 )
 @option(
     "--stones",
-    type=click.Path(path_type=Path),
+    type=OutputFile("CSV"),
     metavar="FILE.csv",
     section="Output",
     help="Write the result of each stone: threshold, probability, computed and observed overturning (CSV that Excel opens).",
@@ -225,15 +225,13 @@ def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: s
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.infer import INTENSITY_OF_STONES, INTENSITY_OF_VELOCITY, StonesParameters, stones_document
     from seisblock.report.text import infer as text_output
-    from seisblock.report.text.stones import PLACE_COLUMNS, check_stones_file, write_stones
+    from seisblock.report.text.stones import PLACE_COLUMNS, write_stones
     from seisblock.studies.survey.consistency import consistency_warning
     from seisblock.studies.survey.estimate import estimate_shaking, estimate_warnings, fitted_stones, frequency_contour, stone_groups
     from seisblock.studies.survey.joint import joint_estimate, joint_warnings
     from seisblock.studies.survey.likelihood import counted_survey, marked_survey, parse_rate
     from seisblock.studies.survey.overturning_rate import FREQUENCIES
 
-    if params["stones"] is not None:
-        check_stones_file(params["stones"])
     places = [read_cemetery(name) for name in cemetery]
     for name, site in zip(cemetery, places, strict=True):
         for note in site.notes[:1]:

@@ -11,6 +11,7 @@ from seisblock.cli.progress import progress, set_task
 from seisblock.cli.verbosity import is_quiet
 from seisblock.core.errors import InputError, ParameterError
 from seisblock.core.i18n import gettext
+from seisblock.output.text.record_info import format_step
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.process import require_horizontals
 
@@ -111,7 +112,7 @@ def _prepare(record: Record, source: Source, *, vertical_counts: bool, keep_whol
     peaks = () if source.target_pga is None else selected_components(record, source, vertical_counts=vertical_counts)
     record = make_preparation(source, peaks, keep_whole=keep_whole).apply(record)
     for line in record.history:
-        info("{record}: {did}", record=record.station or record.source, did=line)
+        info("{record}: {did}", record=record.station or record.source, did=format_step(line))
     return record
 
 

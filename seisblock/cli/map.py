@@ -18,7 +18,7 @@ from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source, output_options, real_record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import Count
+from seisblock.cli.types import Count, OutputFile
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_RUNS
 from seisblock.core.registry import solver_names
@@ -82,10 +82,8 @@ DEFAULT_RUNS = 50
 @option("--seed", type=int, default=0, show_default=True, help="Seed of the samples.")
 @option("--workers", type=click.IntRange(1, 1024), metavar="N", help="Number of threads. [default: number of cores]")
 @gravity_option
-@option(
-    "--geojson", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the stations as GeoJSON points (RFC 7946)."
-)
-@option("--html", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the map as one self-contained HTML page.")
+@option("--geojson", type=OutputFile("GeoJSON"), metavar="FILE", section="Output", help="Write the stations as GeoJSON points (RFC 7946).")
+@option("--html", type=OutputFile("HTML"), metavar="FILE", section="Output", help="Write the map as one self-contained HTML page.")
 @output_options(histories=False, film=False)
 def map(  # noqa: A001 - the command's name
     source: Source,
@@ -110,7 +108,6 @@ def map(  # noqa: A001 - the command's name
     from seisblock.cli.write_results import figure_of, write_results
     from seisblock.core.errors import ParameterError, RecordError
     from seisblock.output.io.atomic import check_distinct_outputs
-    from seisblock.output.io.suffix import check_text_suffix
     from seisblock.records.analytic import is_analytic
     from seisblock.report.json.map import document
     from seisblock.report.text import map as text_output
@@ -125,9 +122,6 @@ def map(  # noqa: A001 - the command's name
     if source.component and source.target_pga is None:
         raise click.UsageError(gettext("--component has no effect on map except with --target-pga: all azimuths are computed"))
     check_distinct_outputs(*(path for path in (geojson, html) if path is not None))
-    for path, form in ((geojson, "GeoJSON"), (html, "HTML")):
-        if path is not None:
-            check_text_suffix(path, form)
     surveyed_places = None if survey is None else read_surveys(survey)
     model = _station_model(cemetery, **params)
     if not source.record:

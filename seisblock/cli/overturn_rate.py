@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from functools import partial
 from itertools import product
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -20,7 +19,7 @@ from seisblock.cli.options import Source, check_callback, curve_record_options, 
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, INSET, LENGTH, Count
+from seisblock.cli.types import FLOATS, INSET, LENGTH, Count, OutputFile
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.i18n import N_, gettext, lazy_gettext
@@ -139,7 +138,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
 )
 @option(
     "--stones",
-    type=click.Path(path_type=Path),
+    type=OutputFile("CSV"),
     metavar="FILE.csv",
     section="Output",
     help="Write the result of each stone: threshold, probability, computed and observed overturning (CSV that Excel opens).",
@@ -160,16 +159,14 @@ def overturn_rate(
     from seisblock.report.json.overturn_rate import document, parameters_of
     from seisblock.report.text import overturn_rate as text_output
     from seisblock.report.text.stones import RATE_COLUMNS as STONE_COLUMNS
-    from seisblock.report.text.stones import check_stones_file, rate_groups, write_stones
+    from seisblock.report.text.stones import rate_groups, write_stones
     from seisblock.studies.survey import assessment as study
     from seisblock.studies.survey.overturning_rate import FREQUENCIES
 
     if reinforced + both + (most_fragile is not None) > 1:
         raise click.UsageError(gettext("--reinforced, --both and --most-fragile exclude each other: give only one of them"))
-    if params["stones"] is not None:
-        if not (source.record or params["pga"]):
-            raise click.UsageError(gettext("--stones requires RECORD, or --pga: the outcome of a stone depends on the shaking"))
-        check_stones_file(params["stones"])
+    if params["stones"] is not None and not (source.record or params["pga"]):
+        raise click.UsageError(gettext("--stones requires RECORD, or --pga: the outcome of a stone depends on the shaking"))
     stones = read_cemetery(cemetery)
     for note in stones.notes[:1]:
         info("{cemetery}: {note}", cemetery=cemetery, note=lazy_gettext(note))

@@ -16,7 +16,7 @@ from seisblock.cli.console import info, print_result, print_tables, warning
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, record_options
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import LENGTH, MU
+from seisblock.cli.types import LENGTH, MU, OutputFile
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core.errors import InputError
 from seisblock.core.i18n import get_locale, gettext, lazy_gettext
@@ -73,7 +73,7 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
 @option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path),
+    type=OutputFile("HTML"),
     metavar="FILE",
     section="Output",
     help="HTML page to write. [required without --json]",
@@ -102,8 +102,7 @@ def report(
     from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.progress import progress
     from seisblock.output.figures.fonts import NO_FONT, drawable_locale
-    from seisblock.output.io.atomic import check_distinct_outputs, write_text
-    from seisblock.output.io.suffix import check_text_suffix
+    from seisblock.output.io.atomic import write_text
     from seisblock.output.json.encode import to_json
     from seisblock.report.html.report import report as page
     from seisblock.report.json.report import document
@@ -111,10 +110,7 @@ def report(
     from seisblock.studies.report.models import body_models, is_sizes
     from seisblock.studies.report.responses import collect_responses
 
-    if output is not None:
-        check_distinct_outputs(output)
-        check_text_suffix(output, "HTML")
-    elif not as_json:
+    if output is None and not as_json:
         raise click.UsageError(gettext("the page requires -o FILE; without a page, give --json"))
     with quiet_output(quiet):
         names = body or DEFAULT_BODIES

@@ -14,7 +14,7 @@ from seisblock.cli.console import info
 from seisblock.cli.options import Source, check_callback, output_options, scenario_record_options
 from seisblock.cli.output import STDOUT, OutputOptions
 from seisblock.cli.scenario_records import load_scenario
-from seisblock.cli.types import JMA, MU, Count
+from seisblock.cli.types import JMA, MU, Count, OutputFile
 from seisblock.core import checks
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_VALUES
@@ -96,14 +96,14 @@ def scenario_options() -> Decorator:
 @gravity_option
 @option(
     "--html",
-    type=click.Path(path_type=Path),
+    type=OutputFile("HTML"),
     metavar="FILE",
     section="Output",
     help="Write a page with a card for each object, English and Japanese.",
 )
 @option(
     "--xlsx",
-    type=click.Path(path_type=Path),
+    type=OutputFile(),
     metavar="FILE",
     section="Output",
     help="Write the table with its advice as an Excel workbook, headings in the language of --lang.",
@@ -131,15 +131,12 @@ def scenario(
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import figure_of, write_results
     from seisblock.output.io.atomic import check_distinct_outputs, write_text
-    from seisblock.output.io.suffix import check_text_suffix
     from seisblock.output.io.workbook import check_workbook, write_workbook
     from seisblock.report.json.scenario import document
     from seisblock.report.text import scenario as text_output
     from seisblock.studies.scenario.assess import assess_scenario, scenario_bodies
 
     check_distinct_outputs(*(path for path in (html, xlsx, output.plot, output.csv) if path is not None and path != STDOUT))
-    if html is not None:
-        check_text_suffix(html, "HTML")
     if xlsx is not None:
         check_workbook(xlsx)
     specs, list_notes = read_body_list(bodies)

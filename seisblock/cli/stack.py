@@ -17,7 +17,7 @@ from seisblock.cli.option_checks import given_flags
 from seisblock.cli.options import Source, criterion_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.sampling_options import pop_spreads, version_options
-from seisblock.cli.types import INSET, MU, ContactType
+from seisblock.cli.types import INSET, MU, ContactType, OutputFile
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.models.stack.options import EDGES, GRID, RIGID, SPRINGS, StackOptions
@@ -115,7 +115,7 @@ MAX_GRID = 29
 )
 @option(
     "--resume",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=OutputFile(),
     metavar="FILE",
     help="--criterion: file of finished sines, from which an interrupted study continues.",
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import click
@@ -66,6 +67,31 @@ class FormatType(click.types.StringParamType):
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         """Complete the name of a format."""
         return [CompletionItem(name) for name in self.names if name.startswith(incomplete.upper())]
+
+
+class OutputFile(click.Path):
+    """File to write, checked before the command runs.
+
+    Parameters
+    ----------
+    form : str
+        Text format, see :func:`seisblock.output.io.suffix.check_text_suffix`; empty where the command checks the suffix.
+    """
+
+    def __init__(self, form: str = "") -> None:
+        super().__init__(path_type=Path)
+        self.form = form
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        """Return the path of a file that can be written."""
+        from seisblock.output.io.atomic import check_target
+        from seisblock.output.io.suffix import check_text_suffix
+
+        path = Path(super().convert(value, param, ctx))  # type: ignore[arg-type]
+        if self.form:
+            check_text_suffix(path, self.form)
+        check_target(path)
+        return path
 
 
 class Parsed(click.ParamType, Generic[Parameter]):  # type: ignore[type-arg]

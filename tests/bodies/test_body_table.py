@@ -73,6 +73,8 @@ def test_body_table_rejects_other_files(tmp_path):
     """A directory, a picture, a file that is not there, nothing at all."""
     (tmp_path / "dir.csv").mkdir()
     (tmp_path / "image.csv").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0")
+    with pytest.raises(BodyError, match=r"is a folder: give a table of bodies \(.csv, .xlsx\), a TOML file .*, or a bundled body"):
+        read_bodies(tmp_path)
     for name in ("dir.csv", "image.csv", "gone.csv"):
         with pytest.raises(BodyError, match=name):
             read_bodies(tmp_path / name)

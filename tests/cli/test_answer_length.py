@@ -10,8 +10,9 @@ from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, locale, main
 from seisblock.cli.command import SHARED_ESSENTIAL
+from seisblock.cli.console import print_tables
 from seisblock.core import i18n
-from seisblock.output.text.tables import Part, details, shortened_answer, styled_line, whole_answer
+from seisblock.output.text.tables import Part, details, shortened_answer, styled_line, table, whole_answer
 from seisblock.output.text.wrap import display_width
 from tests.i18n.english import english_words
 from tests.lengths import all_but_slow
@@ -208,6 +209,12 @@ def test_blank_lines_separate_parts_and_end_no_answer():
     parts = ["verdict", styled_line(), "row", Part((styled_line("all"), styled_line()), (styled_line(),))]
     assert [str(part) for part in whole_answer(parts)] == ["verdict", "", "row", "all"]
     assert [str(part) for part in shortened_answer(parts)] == ["verdict", "", "row", "more: --details"]
+
+
+def test_hint_to_details_follows_a_table_directly(capsys):
+    """The blank line under the last table is left out, that above it is not."""
+    print_tables([details("modes"), table("title", ["item", "value"], [["row", "1"]])])
+    assert [line.strip() for line in capsys.readouterr().out.splitlines()][-3:] == ["\u2500" * 12, "row        1", "more: --details"]
 
 
 @pytest.mark.parametrize("language", ["en", "ja"])

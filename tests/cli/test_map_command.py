@@ -130,8 +130,8 @@ def test_map_warns_of_records_far_apart_in_time():
     ("words", "says", "heads"),
     [
         ("--solver rock --block gravestone --runs 3", "gravestone: stays at 1 of 1 station", "class over- turns worst samples"),
-        ("--solver slide --mu 0.1", "object: slides at 1 of 1 station", "slides displ."),
-        ("--solver jump --body chozusha --mu 0.18", "chozusha: jumps at 0 of 1 station", "jumps over- turns displ."),
+        ("--solver slide --mu 0.1", "object: slides at 1 of 1 station", "slides disp."),
+        ("--solver jump --body chozusha --mu 0.18", "chozusha: jumps at 0 of 1 station", "jumps over- turns disp."),
         ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m: uplift at 1 of 1 station", "uplift"),
     ],
 )
@@ -145,6 +145,14 @@ def test_map_states_outcome_of_every_solver(words, says, heads, monkeypatch):
     assert output["parameters"]["solver"] == words.split()[1] and set(papers(*get_solver(words.split()[1]).topics)) <= set(
         output["citations"]
     )
+
+
+def test_words_of_a_class_are_not_broken_at_80_columns(monkeypatch):
+    """Headline, note and the cell of the class hold the whole word, the station's name, too."""
+    monkeypatch.setenv("COLUMNS", "80")
+    line = "map hanmer_springs_2016 --target-pga 900 --block gravestone --mu 0.5 --runs 8"
+    text = CliRunner().invoke(main, line.split()).stdout
+    assert text.count("overturns") == 3 and "Emergency" in text.split("station ", 1)[1]
 
 
 def test_map_states_floor_motion():

@@ -85,3 +85,12 @@ def test_command_line_equals_preparation():
     preparation = Preparation(demean=True, highpass_hz=0.2, target_pga=5.0, components=("EW",), window=(20.0, 40.0))
     result = seisblock.measure(preparation.apply(seisblock.read("synthetic_knet.EW")), ["EW"]).components[0]
     assert entry["pga_m_s2"] == result.pga_m_s2 and entry["pgv_m_s"] == result.pgv_m_s
+
+
+def test_scale_factor_has_four_digits_in_text_and_ten_in_documents():
+    """2.012 for a reader; the document keeps what reproduces the motion."""
+    line = ["measure", "hanmer_springs_2016", "--component", "280", "--target-pga", "520"]
+    answer = CliRunner().invoke(main, line)
+    assert "scaled by 2.012: PGA of 280" in answer.stdout and "HSES: scaled by 2.012: PGA" in answer.stderr
+    history = json.loads(CliRunner().invoke(main, [*line, "--json"]).stdout)["record"]["history"]
+    assert history == ["scaled by 2.012072435: PGA of 280 258.44 -> 520 gal"]

@@ -14,7 +14,8 @@ import time
 import pytest
 from click.testing import CliRunner
 
-from seisblock.cli import main
+from seisblock.cli import COMMANDS, main
+from seisblock.cli.types import OutputFile
 from seisblock.core.errors import OutputError
 from seisblock.core.io.checkpoint import Checkpoint
 from seisblock.output.io.atomic import atomic_write, read_table, write_table, write_text
@@ -437,11 +438,17 @@ def test_output_with_unknown_suffix_is_accepted(name, folder):
     assert (folder / name).read_text().startswith("pga_m_s2,")
 
 
-@pytest.mark.parametrize("words", [("report", "-o"), ("validate", "--html")], ids=" ".join)
-def test_unwritable_page_is_rejected_first(words, folder):
-    """Pages take long to make."""
-    result = run(words[0], *(["not_there.csv"] if words[0] == "report" else []), words[1], "nowhere/page.html")
-    assert result.exit_code == 3 and "the folder nowhere does not exist" in result.stderr
+def test_unwritable_output_is_rejected_with_the_command_line(folder):
+    """Of each option for a file to write, before the command reads, imports or computes anything."""
+    checked = set()
+    for name in COMMANDS:
+        for option in main.get_command(None, name).params:
+            if isinstance(option.type, OutputFile):
+                result = run(name, option.opts[-1], f"nowhere/file{'.csv' if option.opts[-1] == '--stones' else '.html'}")
+                reason = "must end in" if option.opts[-1] == "--geojson" else "the folder nowhere does not exist"
+                assert result.exit_code == 3 and reason in result.stderr, (name, option.opts, result.stderr)
+                checked.add(f"{name} {option.opts[-1]}")
+    assert {"report --output", "validate --html", "scenario --xlsx", "batch --out", "stack --resume", "infer --stones"} <= checked
 
 
 def test_stale_temporary_files_are_removed(tmp_path):

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 
 from seisblock.core.i18n import escape_control, format_share, gettext, join_clauses, join_list
 from seisblock.output.figures.fonts import can_render
 from seisblock.output.figures.style import SEPARATOR
+from seisblock.output.text.record_info import format_step
 from seisblock.output.units_display import length_unit
 from seisblock.records import Motion, Record
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.site import epicentral_distance_km, format_local_time, get_earthquake, get_site, source_name
-
-LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
-"""A number with more than three decimals, shortened in titles."""
 
 
 def heading(record: Record | None, directions: Sequence[str] = ()) -> str:
@@ -116,7 +113,7 @@ def direction_name(name: str) -> str:
 def _short_history(history: Iterable[str]) -> Iterable[str]:
     """Yield the processing steps without details in parentheses or after a colon."""
     for step in history:
-        text = gettext(step)
+        text = format_step(step)
         for opening in (" (", "（", ": ", "："):
             text = text.split(opening)[0]
-        yield LONG_NUMBER.sub(lambda number: f"{float(number[0]):.4g}", text)
+        yield text

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from seisblock.core.i18n import gettext, join_list
+from seisblock.core.i18n import Message, gettext, join_list
 from seisblock.records import Record
 from seisblock.records.site import Earthquake, epicentral_distance_km, format_local_time, get_earthquake, get_site
 
@@ -10,6 +10,20 @@ from seisblock.records.site import Earthquake, epicentral_distance_km, format_lo
 def record_info(record: Record) -> list[str]:
     """Return one line on the station and one on the earthquake, as far as the file contains them."""
     return [text for text in (_station(record), _earthquake(record)) if text]
+
+
+def format_step(step: str) -> str:
+    """Return a processing step with four digits of a scale factor; documents contain ten.
+
+    Examples
+    --------
+    >>> from seisblock.core.i18n import lazy_gettext
+    >>> format_step(lazy_gettext("scaled by {factor:.10g}", factor=2.012072435)), format_step("as recorded")
+    ('scaled by 2.012', 'as recorded')
+    """
+    if isinstance(step, Message) and "factor" in step.values:
+        return gettext(step.template, **{**step.values, "factor": float(f"{step.values['factor']:.4g}")})
+    return gettext(step)
 
 
 def format_position(latitude_deg: float, longitude_deg: float) -> str:

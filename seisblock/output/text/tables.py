@@ -11,11 +11,12 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console, ConsoleOptions, Group, RenderResult
 from rich.containers import Lines
 from rich.measure import Measurement
+from rich.segment import Segment
 from rich.table import Table
 from rich.text import Text
 
 from seisblock.core.i18n import escape_control, gettext, join_clauses, join_sentences
-from seisblock.output.text.record_info import record_info
+from seisblock.output.text.record_info import format_step, record_info
 from seisblock.output.text.wrap import break_positions, fits, has_quantity, is_wide
 from seisblock.output.units_display import acceleration_unit
 from seisblock.records import Record
@@ -169,9 +170,26 @@ def whole_answer(parts: Iterable[Any]) -> Iterator[Any]:
 def shortened_answer(parts: Iterable[Any]) -> Iterator[Any]:
     """Yield an answer without its details, and the option that prints them where there are any."""
     answer = list(parts)
-    yield from _without_last_blank_lines(line for part in answer for line in (part.short if isinstance(part, Part) else [part]))
+    lines = list(_without_last_blank_lines(line for part in answer for line in (part.short if isinstance(part, Part) else [part])))
     if any(isinstance(part, Part) for part in answer):
-        yield styled_line(gettext("more: --details"), "dim")
+        lines = [*lines[:-1], *map(_WithoutLowerEdge, lines[-1:]), styled_line(gettext("more: --details"), "dim")]
+    yield from lines
+
+
+@dataclass(frozen=True)
+class _WithoutLowerEdge:
+    """Part of an answer without the blank line under its last table."""
+
+    part: Any
+
+    def __str__(self) -> str:
+        return str(self.part)
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        lines = console.render_lines(self.part, options, pad=False)
+        for line in lines if "".join(segment.text for segment in lines[-1]).strip() else lines[:-1]:
+            yield from line
+            yield Segment.line()
 
 
 def _without_last_blank_lines(lines: Iterable[Any]) -> Iterator[Any]:
@@ -325,4 +343,4 @@ def record_line(record: Record) -> Text:
 
 def processing_text(record: Record) -> str:
     """Return the processing applied to a record."""
-    return join_clauses(map(gettext, record.history)) or gettext("no processing")
+    return join_clauses(map(format_step, record.history)) or gettext("no processing")

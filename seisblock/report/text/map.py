@@ -79,7 +79,9 @@ def _station_table(answers: Sequence[StationReport], model: StationModel | None,
     header, rows = station_rows(listed_answers, model, gal=gal)
     caption = "\n".join(filter(None, (_omitted_text(len(answers) - max_rows), column_note(listed_answers, model))))
     # station names need the width
-    return table("", [name.replace(" (", "\n(").replace("overturns", "over-\nturns") for name in header], rows, caption=caption)
+    for word, lines in ((" (", "\n("), ("overturns", "over-\nturns"), ("worst azimuth", "worst\nazimuth")):
+        header = [name.replace(word, lines) for name in header]
+    return table("", header, rows, caption=caption)
 
 
 def column_note(answers: Sequence[StationReport], model: StationModel | None) -> str:
@@ -259,7 +261,7 @@ def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
         "class": gettext("class"),
         "overturned": gettext("overturns"),
         "probability": gettext("overturns"),
-        "max_slip_m": gettext("displ. ({unit})", unit=way.name),
+        "max_slip_m": gettext("disp. ({unit})", unit=way.name),
         "max_uplift_m": gettext("uplift ({unit})", unit=way.name),
     }
     return [*(header[name] for name in _columns(model)), gettext("worst azimuth")]

@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.output.io.atomic import check_target, write_table
-from seisblock.output.io.suffix import check_text_suffix
+from seisblock.output.io.atomic import write_table
 from seisblock.records import Record
 from seisblock.studies.survey.assessment import CemeteryRate
 from seisblock.studies.survey.stones import Contingency, StoneResult
@@ -47,12 +46,6 @@ def agreement_text(contingency: Contingency) -> str:
         neither=contingency.neither,
         share=contingency.agreement,
     )
-
-
-def check_stones_file(path: Path) -> None:
-    """Raise OutputError, before anything is computed, for a file of ``--stones`` that cannot be written."""
-    check_text_suffix(path, "CSV")
-    check_target(path)
 
 
 def write_stones(path: Path, header: Sequence[str], groups: Iterable[tuple[Sequence[Any], Sequence[StoneResult]]]) -> None:
