@@ -20,8 +20,9 @@ from seisblock._jit import cache
 from seisblock.dynamics.ensemble import Observer
 from seisblock.dynamics.model import Model
 from tests.kernels import KERNEL_PACKAGES, all_kernels, compile_all
-from tests.lengths import all_but_slow
 from tests.trees import syntax_tree
+
+pytestmark = pytest.mark.slow
 
 PACKAGE = Path(seisblock.__file__).parent
 
@@ -86,7 +87,6 @@ def test_cache_holds_only_the_kernels_that_python_calls(filled):
     assert [path for path in filled.rglob("*") if path.name.startswith("tmp")] == []
 
 
-@pytest.mark.slow
 def test_a_process_loads_only_the_kernels_that_python_calls(folder):
     """Machine code of a kernel holds that of its callees."""
     script = (
@@ -112,7 +112,6 @@ def test_kernels_that_another_command_did_not_need_are_announced(folder):
     assert run(folder) == []
 
 
-@pytest.mark.slow
 def test_processes_that_compile_at_the_same_time_leave_a_sound_cache(tmp_path):
     """Each kernel's folder is renamed into place when it is complete."""
     processes = [start(tmp_path, FIRST) for _ in range(3)]
@@ -148,7 +147,7 @@ DAMAGE = {
     [
         ("*.nbc", "one bit", SCRIPT),
         *(
-            pytest.param(name, damage, FIRST, marks=pytest.mark.slow)
+            (name, damage, FIRST)
             for name, damages in {
                 "*.nbc": ("empty", "half", "last byte", "inside"),
                 "*.nbi": ("empty", "one bit"),
@@ -174,7 +173,7 @@ def test_a_full_disk_has_one_warning_and_no_other_effect(tmp_path):
     assert len(messages) == 2 and "set SEISBLOCK_CACHE_DIR to a writable folder" in messages[1] and os.strerror(27) in messages[1]
 
 
-@pytest.mark.parametrize("place", all_but_slow(["file", "file/below"], {"file/below"}))
+@pytest.mark.parametrize("place", ["file", "file/below"])
 def test_a_folder_that_cannot_be_created_has_one_warning_and_no_other_effect(tmp_path, place):
     (tmp_path / "file").touch()
     messages = run(tmp_path / place, FIRST)

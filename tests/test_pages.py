@@ -9,13 +9,7 @@ import pytest
 from seisblock.cli import COMMANDS, main
 from tests.pages import FENCED, PAGES, ROOT, changed_figures, lines_of, matches, page_differences
 
-pytestmark = pytest.mark.usefixtures("computed_once")  # a page and its Japanese one print the same results
-
-SLOW = {
-    *("docs/guides/fit.md", "docs/guides/secure_objects.md", "docs/ja/museum.md", "docs/trust.md"),
-    *("docs/models/stack.md", "docs/tutorials/earthquake_map.md"),
-}
-"""Pages whose lines take more than some seconds."""
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("computed_once")]  # a page and its Japanese one print the same results
 
 ELSEWHERE = {"docs/tutorials/from_records_to_a_frequency.md"}
 """A page whose lines take seconds each, and lead to files that a test of its own looks at."""
@@ -28,9 +22,7 @@ RECIPES = {name for name, page in PAGES.items() if f"```python\n{FILE_OF_A_RECIP
 RUN = {name for name, page in PAGES.items() if {"console", "python"} & {kind for kind, _ in FENCED.findall(page.read_text("utf-8"))}}
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in sorted(RUN - ELSEWHERE - RECIPES)]
-)
+@pytest.mark.parametrize("name", sorted(RUN - ELSEWHERE - RECIPES))
 def test_page_output_equals_program(name, tmp_path, monkeypatch):
     """Outputs and figures on the pages equal those of the program at 80 columns."""
     monkeypatch.setenv("COLUMNS", "80")

@@ -15,9 +15,8 @@ from seisblock.core import i18n
 from seisblock.output.text.tables import Part, details, shortened_answer, styled_line, table, whole_answer
 from seisblock.output.text.wrap import display_width
 from tests.i18n.english import english_words
-from tests.lengths import all_but_slow
 
-pytestmark = pytest.mark.usefixtures("computed_once")
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("computed_once")]
 
 MAX_LINES, WIDTH = 40, 80
 
@@ -78,13 +77,6 @@ LINES = (
     ("fit", "shaken_block.csv", "--free", "alpha,p"),
     ("validate", "--quick"),
 )
-
-SLOW = {
-    ("validate", "--quick"),
-    ("fit", "shaken_block.csv", "--free", "alpha,p"),
-    ("report", "synthetic_jma.csv", "--output", "FOLDER/page.html"),
-}
-"""Lines that take more than seconds."""
 
 FULL = {
     ("jump", "synthetic_jma.csv"): (
@@ -152,7 +144,7 @@ def run_in_language(tmp_path_factory):
 
 
 @pytest.mark.parametrize("lang", i18n.LANGUAGES)
-@pytest.mark.parametrize("line", all_but_slow(LINES, set(LINES) - SLOW), ids=line_of)
+@pytest.mark.parametrize("line", LINES, ids=line_of)
 def test_default_answer_fits_a_screen(line, lang, run_in_language):
     """No more than 40 lines, each of at most 80 columns, without English in Japanese."""
     answer = run_in_language(line, lang).splitlines()

@@ -222,9 +222,6 @@ def examples(name):
     return [line for line in lines if line]
 
 
-SECONDS = ("fetch", "fit", "infer", "measure", "report", "rigid3d", "rock", "scenario", "secure", "spectrum", "stack", "uplift", "validate")
-"""Commands some of whose examples take seconds."""
-
 SMALLER = {
     "secure": {"scenario.secure.COARSE": 5, "scenario.secure.QUICK_RUNS": 20},
     "stack": {"gravestone_criterion.PGAS": (4.0, 8.0, 12.0)},
@@ -236,7 +233,8 @@ SMALLER = {
 """Studies of examples that are to run, not to be precise: constants below `seisblock.studies` by command."""
 
 
-@pytest.mark.parametrize("name", ["", *(pytest.param(name, marks=[pytest.mark.slow] * (name in SECONDS)) for name in COMMANDS)])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["", *COMMANDS])
 def test_help_examples_run(name, workshop, monkeypatch, request):
     """At least two lines at the end of each help can be pasted as they stand, and run; the page is not served, nor a server asked."""
     monkeypatch.setattr("seisblock.app.server.serve", lambda listener, *rest: listener.close())

@@ -31,7 +31,7 @@ from seisblock.studies.report.responses import collect_responses
 from tests.brief_record import brief_record
 from tests.i18n.english import english_words, visible_text
 
-pytestmark = pytest.mark.usefixtures("computed_once")
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("computed_once")]
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
@@ -48,7 +48,6 @@ def pages():
     return mapping
 
 
-@pytest.mark.slow
 def test_report_is_fully_translated(pages):
     """Cards, sentences, tables, captions and provenance; references are quoted."""
     assert not english_words(visible_text(pages["ja"])) and english_words(visible_text(pages["en"]))
@@ -95,7 +94,6 @@ def test_report_title_has_file_name_without_folder(tmp_path):
     assert heading(shaken) == "shaken.csv"
 
 
-@pytest.mark.slow
 def test_report_states_processing_before_outcomes(square, page_of_square):
     """F4: a page of a scaled record begins with the scaling in both languages; that of an unscaled one does not."""
     scaled = collect_responses(Preparation(scale=0.5).apply(square.record), [body_models("1x1")], components=["EW"])
@@ -107,7 +105,6 @@ def test_report_states_processing_before_outcomes(square, page_of_square):
     assert 'class="processed"' not in page_of_square
 
 
-@pytest.mark.slow
 def test_report_provenance_from_python_is_reproducible(square, page_of_square, pages, monkeypatch):
     """F4: the page names the command that it is given, or none, independent of how the process was started."""
     monkeypatch.setattr("sys.argv", ["/home/somebody/notebook.py", "--secret"])
@@ -213,7 +210,6 @@ def test_report_card_states_best_estimate(pages):
     )
 
 
-@pytest.mark.slow
 def test_report_card_states_assumed_friction(tmp_path):
     """With sizes alone the card states the assumed friction."""
     page = tmp_path / "report.html"
@@ -232,7 +228,6 @@ def test_report_rejects_bad_input_in_one_sentence(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.slow
 def test_report_of_single_component_record(tmp_path):
     """Without a vertical component there is no intensity: the page lists the components."""
     page = tmp_path / "report.html"

@@ -14,9 +14,8 @@ from seisblock.cli import COMMANDS, main
 from seisblock.cli.options import Source
 from seisblock.cli.output import OutputOptions
 from seisblock.readers.options import ReadOptions
-from tests.lengths import all_but_slow
 
-pytestmark = pytest.mark.usefixtures("computed_once")
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("computed_once")]
 
 SHORT = ("synthetic_jma.csv", "--window", "25.5:26.5", "--component", "NS")
 BLOCK = ("--width", "24cm", "--height", "72cm")
@@ -54,7 +53,7 @@ def test_unit_option_exists_where_accelerations_are_shown():
     assert {command for command in COMMANDS if "--gal" in options_of(command)} == set(IN_GAL)
 
 
-@pytest.mark.parametrize("command", all_but_slow(IN_GAL, set(IN_GAL) - {"fit", "measure", "uplift", "stack"}))
+@pytest.mark.parametrize("command", IN_GAL)
 def test_unit_option_sets_units_of_text_and_figure(command, tmp_path):
     """F3, F6: with --si no gal, kine, cm or mm is left in the answer or the figure, with --gal no m/s²; one of the two differs."""
     answers = []

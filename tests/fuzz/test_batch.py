@@ -15,6 +15,8 @@ from tests.fuzz.command_lines import SAMPLES, STRANGE
 from tests.fuzz.formats import WRITERS
 from tests.fuzz.test_command_lines import CODES, complaint, in_time
 
+pytestmark = pytest.mark.slow
+
 VALUES = 12
 RECORDS = ("jma", "knet-csv", "comma", "blank", "at2", "one column")
 """Formats whose files may be spoilt in their text."""

@@ -19,6 +19,8 @@ from seisblock.studies.report.models import body_models
 from tests.fuzz.accidents import spoil
 from tests.fuzz.values import as_toml, with_mistakes
 
+pytestmark = pytest.mark.slow
+
 VALUES = 150
 SLOWEST_S = 10.0
 LONGEST_MESSAGE = 1500

@@ -29,7 +29,7 @@ CODES = {0, 2, 3, 4}
 LONGEST_LINE = 1500
 OUTPUTS = {"--csv", "--plot", "--animate", "--html", "-o", "--out", "--geojson", "--pelicun", "--nrml"}
 
-pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGPROF"), reason="a run that does not end is ended by an alarm")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not hasattr(signal, "SIGPROF"), reason="a run that does not end is ended by an alarm")]
 
 
 class TooSlow(BaseException):

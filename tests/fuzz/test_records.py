@@ -15,6 +15,8 @@ from seisblock.readers import read
 from tests.fuzz.accidents import spoil
 from tests.fuzz.formats import FORMATS
 
+pytestmark = pytest.mark.slow
+
 VALUES = 60
 SEALED = {"zip", "tar.gz", "xlsx"}
 """Checksums tell of almost all accidents."""

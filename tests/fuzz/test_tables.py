@@ -20,6 +20,8 @@ from tests.fuzz.accidents import spoil
 from tests.fuzz.test_batch import LIST
 from tests.fuzz.test_bodies import refused_or
 
+pytestmark = pytest.mark.slow
+
 VALUES = 60
 
 SURVEYS = "place,latitude,longitude,stones,fallen\n" + "".join(

@@ -36,6 +36,8 @@ from tests.report.long_record import motion, response
 from tests.report.test_every_figure import overlap_share, visible_texts
 from tests.report.test_histories import line_deviation, tilt_until_fall
 
+pytestmark = pytest.mark.slow
+
 FILMS = {
     "respond": respond.respond_animation,
     "rock": rock.rocking_animation,

@@ -21,8 +21,9 @@ from seisblock.output.figures.fit_size import fit_figure_size
 from seisblock.output.figures.style import MIN_FONT_SCALE, add_legend, new_figure, set_panel_title
 from seisblock.output.figures.svg import embed_figure
 from tests.i18n.test_commands import MINUS_NOTHING
-from tests.lengths import all_but_slow
 from tests.report.long_record import EVERY, OF_THE_RECORD, drawing_functions
+
+pytestmark = pytest.mark.slow
 
 COLUMN, PAGE = 0.085, 0.18
 """Width of a journal column and of its type area, m."""
@@ -71,7 +72,7 @@ def texts_in_unit(name, *, gal):
         return [text.get_text() for text in EVERY[name][1](False).findobj(Text)]
 
 
-@pytest.mark.parametrize("lang", all_but_slow(["en", "ja"], {"en"}))
+@pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("name", EVERY)
 def test_figure_texts_do_not_overlap_or_leave_canvas(name, lang):
     """F3: every text that is drawn stands by itself, within the figure; and no zero has a sign."""
@@ -79,7 +80,6 @@ def test_figure_texts_do_not_overlap_or_leave_canvas(name, lang):
     assert not [text.get_text() for text in texts_of(name, lang) if MINUS_NOTHING.search(text.get_text())]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))  # no command draws that one: it has no --size
 def test_figures_fit_journal_column_widths(name):
     """At 85 and 180 mm no texts overlap and none is too small to print; legends give way to titles."""
@@ -99,7 +99,6 @@ TOO_SMALL = {
 """What has more panels, or columns of them, than 85 mm x 60 mm hold; two components side by side have twice those of one."""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(name for name in EVERY if name != "field test" and not name.endswith(", two")))
 def test_small_size_fits_or_is_rejected_with_sufficient_size(name, monkeypatch):
     """At 85 mm x 60 mm no texts overlap or leave the canvas; otherwise the message names a sufficient size in mm."""
@@ -122,7 +121,6 @@ def test_small_size_fits_or_is_rejected_with_sufficient_size(name, monkeypatch):
     assert min(text.get_fontsize() for text in texts) >= 6.5 * MIN_FONT_SCALE
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "lang"),
     [
@@ -192,7 +190,7 @@ def test_nine_risk_curves_are_distinct_and_labelled():
     assert {text.get_text() for text in figure.legends[0].get_texts()} == {curve.get_label() for curve in curves}
 
 
-@pytest.mark.parametrize("lang", all_but_slow(["en", "ja"], {"en"}))
+@pytest.mark.parametrize("lang", ["en", "ja"])
 def test_legend_does_not_cover_title_in_report(lang):
     """A figure that is narrowed for a page lifts its titles over the keys, with the tails of their letters."""
     with use_locale(lang):

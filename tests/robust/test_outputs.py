@@ -21,6 +21,8 @@ from seisblock.core.io.checkpoint import Checkpoint
 from seisblock.output.io.atomic import atomic_write, read_table, write_table, write_text
 from seisblock.samples import sample_path
 
+pytestmark = pytest.mark.slow
+
 PROGRAM = [sys.executable, "-m", "seisblock"]
 
 
@@ -67,7 +69,6 @@ def test_output_never_overwrites_other_components(folder):
     assert (folder / "x.NS").read_bytes() == before
 
 
-@pytest.mark.slow
 def test_output_never_overwrites_body_or_cemetery(folder):
     """R1: files of bodies and cemeteries are read, too."""
     for name in ("gravestone.toml", "aoyama.csv"):
@@ -324,7 +325,6 @@ def test_full_or_closed_stdout_gives_at_most_one_error(command, end, tmp_path):
         assert result.returncode == 0
 
 
-@pytest.mark.slow
 def test_latin_1_stdout_replaces_characters(tmp_path):
     """R16: a terminal that cannot write Greek shows a sign in its place."""
     environment = {**os.environ, "PYTHONIOENCODING": "latin-1"}

@@ -14,6 +14,8 @@ from seisblock.core.errors import ParameterError
 from seisblock.studies.batch import cluster, run
 from tests.studies.batch.conftest import write_record
 
+pytestmark = pytest.mark.slow
+
 distributed = pytest.importorskip("distributed")
 
 
@@ -73,14 +75,12 @@ def test_dask_result_is_one_frame(client, monkeypatch):
     assert len(calls) == 1
 
 
-@pytest.mark.slow
 def test_batch_on_dask_accepts_records_in_memory(client, records):
     """They travel as they are."""
     read = [seisblock.read(name) for name in records[:3]]
     assert list(seisblock.run_batch(read, BODIES, "rock", client=client).cells()) == list(seisblock.run_batch(read, BODIES, "rock").cells())
 
 
-@pytest.mark.slow
 def test_batch_survives_death_of_worker(client, records):
     """One of two processes is killed when the first answer is there, while others are under way in it."""
     victim = next(iter(client.run(os.getpid).values()))
@@ -95,7 +95,6 @@ def test_batch_survives_death_of_worker(client, records):
     assert victim not in client.run(os.getpid).values()
 
 
-@pytest.mark.slow
 def test_record_that_kills_workers_becomes_failed_row(client):
     """It does not end the batch, and those that waited in the worker that it took along have their answers."""
     missing = []
