@@ -67,11 +67,12 @@ def respond(
 ) -> None:
     """Full response of a free-standing object: rest, sliding, rocking, slide-rocking, flight, overturning.
 
-    Plane motion of one rigid body with Coulomb friction; each horizontal component is solved separately, with the vertical component
-    where the record has one, until the object is at rest. The overturning probability is the share of samples of body and motion that
-    overturn. Samples vary around the given values; edge wear and friction that are not given are drawn from the ranges of the
-    object's kind. --component all-azimuths reports the worst azimuth; towards an azimuth in degrees the base is projected (width
-    to north, --depth to east). A scanned --block is solved in three dimensions; with --planar its dimensions depend on the azimuth.
+    Plane motion of one rigid body with Coulomb friction until it is at rest, with the vertical component where the record has one. Each
+    horizontal component acts along the width; seisblock scenario turns the object by 90 degrees, too. The overturning probability is the
+    share of samples of body and motion that overturn. Samples vary around the given values; edge wear and friction that are not given
+    are drawn from the ranges of the object's kind. --component all-azimuths reports the worst azimuth; towards an azimuth in degrees
+    the base is projected (width to north, --depth to east). A scanned --block is solved in three dimensions; with --planar its
+    dimensions depend on the azimuth.
     """
     from seisblock.cli.progress import progress
     from seisblock.models.respond.solve import solve_respond

@@ -42,6 +42,17 @@ def progress_scope(callback: Progress) -> Iterator[None]:
         _progress_callback.reset(token)
 
 
+def count_samples(sample: int, record_end: int, last: int) -> tuple[int, int]:
+    """Return the number of completed and of all samples of the record; after it, of the ground at rest up to `last`.
+
+    Examples
+    --------
+    >>> count_samples(300, 1000, 4000), count_samples(1500, 1000, 4000)
+    ((300, 1000), (500, 3000))
+    """
+    return (sample, record_end) if sample <= record_end else (sample - record_end, last - record_end)
+
+
 def check_cancelled() -> None:
     """Raise CancelledError if the run was cancelled.
 

@@ -77,3 +77,12 @@ def test_batch_writes_intensity_sizes_and_friction_and_resumes_a_file_for_excel(
     assert float(row["pga_m_s2"]) > 0.0 and float(row["pgv_m_s"]) > 0.0 and float(row["equivalent_frequency_hz"]) > 0.0
     assert "complete" in run(*line, "--resume").stderr
     assert run(*line[:-3], "--out", tmp_path / "rows.parquet", "--excel").exit_code == 3
+
+
+def test_answer_states_which_side_lies_along_the_motion():
+    """Each component acts along the width: the line of the body names it beside a depth, the help says who turns the body."""
+    answer = run("rock", *SHORT[:3], "--width", "90cm", "--height", "1.8", "--depth", "30cm")
+    assert "block 0.9 m wide along the motion, 0.3 m deep, 1.8 m high" in " ".join(answer.stderr.split())
+    for command in ("rock", "respond"):
+        text = " ".join(run(command, "--help").stdout.split())
+        assert "horizontal component acts along the width; seisblock scenario turns the object" in text

@@ -229,7 +229,9 @@ def test_slicing_a_spring_run_changes_no_bit(slice_time, monkeypatch):
     assert parts.outcome == full.outcome
     for first, second in zip(parts.channels, full.channels, strict=True):
         np.testing.assert_array_equal(first.values, second.values)
-    assert collected == sorted(collected) and collected[-1] == (motion.samples - 1, motion.samples - 1)
+    # the ground at rest after the record is counted by itself: stones that settle are not at 100 % of the record
+    record, rest = ([pair for pair in collected if (pair[1] == motion.samples - 1) == shaken] for shaken in (True, False))
+    assert collected == sorted(record) + sorted(rest) and 0 < rest[0][0] <= rest[-1][0] < rest[-1][1]
 
 
 def test_run_that_creates_energy_raises(monkeypatch):

@@ -87,7 +87,7 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
         body = of_kind(Block(**sizes), params.get("kind") or "block")
         text = N_("block {width:g} m wide, {height:g} m high")
         if body.depth is not None:
-            text = N_("block {width:g} m wide, {depth:g} m deep, {height:g} m high")
+            text = N_("block {width:g} m wide along the motion, {depth:g} m deep, {height:g} m high")
         origin = lazy_gettext(text, width=body.width, depth=body.depth, height=body.height)
     if params.get("inset") is not None:
         body = body.with_wear(params["inset"])

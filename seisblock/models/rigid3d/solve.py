@@ -18,7 +18,7 @@ from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Response, Status
 from seisblock.core.typing import FloatArray
-from seisblock.dynamics.cancellation import check_cancelled, report_progress
+from seisblock.dynamics.cancellation import check_cancelled, count_samples, report_progress
 from seisblock.models.rigid3d import buffers
 from seisblock.models.rigid3d.buffers import Workspace, X, make_workspace
 from seisblock.models.rigid3d.options import Rigid3dOptions
@@ -155,7 +155,7 @@ def run(
     while status == Status.PAUSED:
         check_cancelled()
         status = run_rigid3d(acceleration, dt, last, BUDGET, stop_at_fall, constants, scratch, rows)
-        report_progress(min(int(scratch.counters[buffers.SAMPLE]), samples), samples)
+        report_progress(*count_samples(int(scratch.counters[buffers.SAMPLE]), samples - 1, last))
     return scratch, rows, status
 
 

@@ -14,7 +14,7 @@ from seisblock.core.i18n import N_
 from seisblock.core.limits import check_memory
 from seisblock.core.results import Status
 from seisblock.core.typing import FloatArray
-from seisblock.dynamics.cancellation import check_cancelled
+from seisblock.dynamics.cancellation import check_cancelled, count_samples
 from seisblock.models.stack.arrays import PileArrays
 from seisblock.models.stack.buffers import (
     FIRST_SAMPLE,
@@ -181,7 +181,7 @@ class Simulation:
                 # a step of a pile that falls takes a hundred times as long as one of a pile that stands
                 steps = max(1, min(2 * steps, int(steps * SLICE_TIME / (perf_counter() - start))))
                 if progress is not None and status == Status.PAUSED:
-                    progress(min(int(state.counters[SAMPLE]), settings.record_end), settings.record_end)
+                    progress(*count_samples(int(state.counters[SAMPLE]), settings.record_end, settings.last))
             if status != Status.PAUSED:
                 break
         return status
