@@ -100,11 +100,12 @@ def rock(
 ) -> None:
     """Rocking and overturning of one rigid block about its two lower corners (Housner 1963).
 
-    Each horizontal component acts along the width; seisblock scenario turns the object by 90 degrees, too. Rotation is positive towards the component's positive direction. After the end of
-    the record, the energy decides whether the block overturns. --component all-azimuths sweeps all azimuths in steps of 5 degrees and
-    reports the worst. Towards an azimuth in degrees a block stands with its width to north and its --depth to east, and its base is
-    projected. The dimensions of a scanned --block depend on the azimuth, too. --pga with --pgv or --frequency answers without a
-    record: closed forms, and runs under a suite of synthetic and recorded motions scaled to both.
+    Each horizontal component acts along the width; seisblock scenario turns the object by 90 degrees, too. Rotation is positive towards
+    the component's positive direction. After the end of the record, the energy decides whether the block overturns. --component
+    all-azimuths sweeps all azimuths in steps of 5 degrees and reports the worst. Towards an azimuth in degrees a block stands with its
+    width to north and its --depth to east, and its base is projected. The dimensions of a scanned --block depend on the azimuth, too.
+    --pga with --pgv or --frequency answers without a record: closed forms, and runs under a suite of synthetic and recorded motions
+    scaled to both.
     """
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.hints import rock_hint
