@@ -457,6 +457,15 @@ def test_find_measures_says_what_does_not_reach_the_target(security):
         assert "目標" in measure_note(replace(inset, reason="in English"))
 
 
+def test_find_measures_requires_no_restraint_of_a_safe_object():
+    """An object that meets the target by itself needs no force, as it needs no ballast."""
+    records, _ = scenario_suite(ScenarioTarget(pga_m_s2=1.0, pgv_m_s=0.1), 10)
+    result = find_measures(SolverBody("box", Block(0.4, 0.6, mass=80.0), RespondOptions(mu=0.5)), records, target=0.05)
+    values = {measure.measure: measure.value for measure in result.measures}
+    assert result.overturning_probability == values[BASE_MASS] == values[RESTRAINT] == 0.0
+    assert measure_note(result.measures[-1]) == ""
+
+
 def test_scenario_suite_rejects_too_few_records():
     with pytest.raises(ParameterError):
         scenario_suite(ScenarioTarget(jma=6.0), 3)

@@ -51,7 +51,7 @@ def measure_note(measure: Measure) -> str:
     """Return what else is known about a measure."""
     if measure.value is None:
         return gettext(with_reason(measure).reason or "")
-    if measure.measure == RESTRAINT:
+    if measure.measure == RESTRAINT and measure.value > 0.0:
         moment = (
             f"{measure.moment:.0f} N m"
             if measure.unit == "N"

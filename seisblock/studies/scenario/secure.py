@@ -371,9 +371,12 @@ def find_measures(
         )
         decided = {value for key, value in full if key == name}
         measures.append(_measure(body, name, rows, decided, target, has_mass=has_mass))
-    measures.append(_restraint(search, target, body.body.height if height is None else height, has_mass=has_mass))
+    restraint = _restraint(search, target, body.body.height if height is None else height, has_mass=has_mass)
+    own_probability = search.own_probability()
+    if own_probability <= target:
+        restraint = replace(restraint, value=0.0, overturning_probability=own_probability, moment=0.0, foot_force=None)
     years = None if frequencies is None else frequencies.years
-    return Security(body.name, target, search.own_probability(), search.runs, tuple(measures), years)
+    return Security(body.name, target, own_probability, search.runs, (*measures, restraint), years)
 
 
 def _refine(
