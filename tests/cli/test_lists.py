@@ -6,7 +6,9 @@ import json
 import pytest
 from click.testing import CliRunner
 
+from seisblock.bodies.table import read_bodies
 from seisblock.cli import main
+from seisblock.studies.scenario.assess import scenario_bodies
 
 SHORT = ("synthetic_jma.csv", "--window", "24:30", "--runs", "20")
 
@@ -86,3 +88,12 @@ def test_answer_states_which_side_lies_along_the_motion():
     for command in ("rock", "respond"):
         text = " ".join(run(command, "--help").stdout.split())
         assert "horizontal component acts along the width; seisblock scenario turns the object" in text
+
+
+def test_piles_are_named_as_one_block():
+    """A gravestone of five stones slid as a whole and stood, while its upper stone fell alone in `stack`: the answer says so."""
+    note = "5 stones as one rigid block (stones one by one: seisblock stack)"
+    answer = run("rock", *SHORT[:3], "--block", "wagata")
+    assert f"body: wagata, {note}" in " ".join(answer.stderr.split())
+    _, notes = scenario_bodies(read_bodies(["wagata", "bookcase"]))
+    assert [str(text) for text in notes] == [f"wagata: {note}"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.factory import block_for_motion, body_from_table, table_restitution
+from seisblock.bodies.factory import block_for_motion, body_from_table, pile_note, table_restitution
 from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.toml import read_body_toml
@@ -71,7 +71,7 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     BodyError
         If both sizes and a named block are given, or a required value is missing.
     """
-    keys = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia")
+    keys, note = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia"), None
     sizes = {key: params[key] for key in keys if params.get(key) is not None}
     restitution = params.get("restitution")
     if params.get("block"):
@@ -82,6 +82,7 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
         origin = lazy_gettext(body.name)
         if origin != params["block"]:
             origin = lazy_gettext("{name}, from {file}", name=origin, file=params["block"])
+        note = pile_note(table)
     else:
         require_sizes(params, sizes)
         body = of_kind(Block(**sizes), params.get("kind") or "block")
@@ -94,7 +95,7 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     return BlockChoice(
         body,
         restitution,
-        lazy_gettext("{parts}", parts=[part for part in (origin, describe_edges(body, gal=params.get("gal", True))) if part]),
+        lazy_gettext("{parts}", parts=[part for part in (origin, note, describe_edges(body, gal=params.get("gal", True))) if part]),
     )
 
 

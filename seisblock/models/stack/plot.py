@@ -55,7 +55,7 @@ def figure(responses: StackResponses, *, gal: bool = True, probabilities: Sequen
     for panels, name, response, chance in zip(columns, panel_labels(motions), responses, chances, strict=True):
         body = response.body
         height = max(centre[2] + 0.5 * stone.height for centre, stone in zip(body.centres(), body.stones, strict=True))
-        title = f"+x = {name}: {gettext(body.name)}"
+        title = gettext("{what}: {note}", what=f"+x = {name}", note=gettext(body.name))
         label = gettext("height {height}", height=object_label(height, friction=body.mu, probability=chance, gal=gal))
         _draw_column(panels, f"{title}\n{label}", response, disp_unit, gal=gal)
     return fig

@@ -86,7 +86,7 @@ def _draw_motion(panel: Axes, panel_name: str, response: Response[UpliftOutcome]
             draw_curve(panel, motion.time, values / unit, color=colour, label=name, linewidth=0.7)
     style.label_axes(panel, y=gettext("a ({unit})", unit=unit_name))
     style.add_legend(panel)
-    style.set_panel_title(panel, f"+x = {panel_name or 'x'}: {_block_label(response)}")
+    style.set_panel_title(panel, gettext("{what}: {note}", what=f"+x = {panel_name or 'x'}", note=_block_label(response)))
 
 
 def _block_label(response: Response[UpliftOutcome]) -> str:
