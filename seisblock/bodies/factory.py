@@ -26,7 +26,6 @@ from seisblock.bodies.toml import (
 from seisblock.bodies.two_layer import contact_from_table, two_layer_from_table
 from seisblock.bodies.uncertainty import parse_ranges
 from seisblock.core.errors import BodyError
-from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.records import Motion
 from seisblock.records.motion import requested_azimuth
 
@@ -65,13 +64,6 @@ def load_block(name: str | Path, *, side: str = "short") -> Block:
     2.6
     """
     return block_from_table(read_body_toml(name), side=side)
-
-
-def pile_note(table: Mapping[str, Any] | None) -> Message | None:
-    """Return a note on a pile that is taken as one rigid block; None for other bodies."""
-    if table is None or table.get("kind") != "pile":
-        return None
-    return lazy_gettext("{count} stones as one rigid block (stones one by one: seisblock stack)", count=len(table["stone"]))
 
 
 def block_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block:

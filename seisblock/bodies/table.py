@@ -9,9 +9,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from seisblock.bodies.body_name import body_name
 from seisblock.bodies.edge_wear import parse_edge_wear
 from seisblock.bodies.kinds import KINDS, normalize_kind
-from seisblock.bodies.toml import bundled_bodies, read_body_toml
+from seisblock.bodies.toml import bundled_bodies, pile_note, read_body_toml
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, SeisblockError
@@ -226,6 +227,12 @@ def _read_all(names: str | Path | Iterable[str | Path], *, is_list: bool) -> tup
         raise BodyError("body required: give a table of bodies, a file that describes one body, or a bundled body")
     check_limit(N_("bodies"), len(bodies), MAX_BODIES, error=BodyError)
     return tuple(bodies), tuple(notes)
+
+
+def pile_notes(specs: Iterable[BodySpec]) -> list[Message]:
+    """Return a note on each pile, which models of one block take as a whole."""
+    notes = [(spec.name, pile_note(spec.description)) for spec in specs]
+    return [lazy_gettext("{what}: {note}", what=body_name(name), note=note) for name, note in notes if note is not None]
 
 
 def _read_body_file(name: str) -> BodySpec:

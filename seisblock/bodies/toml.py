@@ -11,7 +11,7 @@ from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
 from seisblock.bodies.scan.mesh import SUFFIXES as MESH_SUFFIXES
 from seisblock.core import checks
 from seisblock.core.errors import BodyError
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.io.files import read_bytes
 from seisblock.core.units import parse_length, parse_mass
 from seisblock.samples import sample_directory
@@ -203,3 +203,10 @@ def _check_text(value: Any, table: Mapping[str, Any], key: str) -> str:
     if not isinstance(value, str):
         raise BodyError("{source}: {key} must be a string, found {found}", source=source_name(table), key=key, found=quote_value(value))
     return value
+
+
+def pile_note(table: Mapping[str, Any] | None) -> Message | None:
+    """Return a note on a pile that is taken as one rigid block; None for other bodies."""
+    if table is None or table.get("kind") != "pile":
+        return None
+    return lazy_gettext("{count} stones as one rigid block (stones one by one: seisblock stack)", count=len(table["stone"]))

@@ -90,10 +90,12 @@ def test_answer_states_which_side_lies_along_the_motion():
         assert "horizontal component acts along the width; seisblock scenario turns the object" in text
 
 
-def test_piles_are_named_as_one_block():
+def test_piles_are_named_as_one_block(tmp_path):
     """A gravestone of five stones slid as a whole and stood, while its upper stone fell alone in `stack`: the answer says so."""
     note = "5 stones as one rigid block (stones one by one: seisblock stack)"
     answer = run("rock", *SHORT[:3], "--block", "wagata")
     assert f"body: wagata, {note}" in " ".join(answer.stderr.split())
     _, notes = scenario_bodies(read_bodies(["wagata", "bookcase"]))
     assert [str(text) for text in notes] == [f"wagata: {note}"]
+    table = run("batch", *SHORT[:1], "--bodies", "wagata", "--solver", "rock", "--out", str(tmp_path / "table.csv"))
+    assert f"wagata: {note}" in " ".join(table.stderr.split())

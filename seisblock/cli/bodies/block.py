@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.factory import block_for_motion, body_from_table, pile_note, table_restitution
+from seisblock.bodies.factory import block_for_motion, body_from_table, table_restitution
 from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.scan.body import ScannedBody
-from seisblock.bodies.toml import read_body_toml
+from seisblock.bodies.toml import pile_note, read_body_toml
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.output.describe_wear import describe_edges

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.body_name import body_name
-from seisblock.bodies.table import BodySpec, read_bodies, resolve_kinds
+from seisblock.bodies.table import BodySpec, pile_notes, read_bodies, resolve_kinds
 from seisblock.core import checks
 from seisblock.core.errors import KindError, ParameterError
 from seisblock.core.i18n import Message, lazy_gettext
@@ -232,4 +232,5 @@ def ignored_column_notes(model: Solver, bodies: Sequence[BodySpec | SolverBody])
     specs = [body for body in bodies if isinstance(body, BodySpec)]
     ignored = dict.fromkeys(key for spec in specs for key in model.ignored_columns(spec.parameters))
     notes = [lazy_gettext("{solver} does not use {columns}", columns=list(ignored), solver=model.name)] if ignored else []
-    return (*notes, *(resolve_kinds(specs)[1] if "kind" in model.columns else ()))
+    piles = [] if model.spatial else pile_notes(specs)
+    return (*notes, *piles, *(resolve_kinds(specs)[1] if "kind" in model.columns else ()))

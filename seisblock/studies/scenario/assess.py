@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.body_name import body_name
-from seisblock.bodies.factory import block_for_motion, pile_note, table_friction
-from seisblock.bodies.table import BodySpec, resolve_kinds
+from seisblock.bodies.factory import block_for_motion, table_friction
+from seisblock.bodies.table import BodySpec, pile_notes, resolve_kinds
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
@@ -106,8 +105,7 @@ def scenario_bodies(
         checks.non_negative("the friction coefficient mu", given_options["mu"])
     specs, notes = resolve_kinds(specs)
     specs = _with_distinct_names(specs)
-    piles = [(spec.name, pile_note(spec.description)) for spec in specs]
-    notes += [lazy_gettext("{what}: {note}", what=body_name(name), note=note) for name, note in piles if note]
+    notes += pile_notes(specs)
     bodies = build_solver_bodies(get_solver("respond"), specs, {"mu": UNKNOWN_FRICTION, **given_options})
     if "mu" in given_options:
         if not any(map(is_friction_unknown, specs)):
