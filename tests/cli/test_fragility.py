@@ -129,3 +129,9 @@ def test_fragility_translates_unnamed_block():
     motion = Motion.from_arrays(np.zeros(10), 0.01)
     with use_locale("ja"):
         assert gettext(solve_rock(Block(1.0, 0.5), motion).warnings[0]).startswith("物体：")
+
+
+def test_note_states_why_medians_of_measures_differ_from_the_curve():
+    """The table of intensity measures printed another median for the same PGA without a reason."""
+    result = run("synthetic_jma.csv", "elcentro_1940_ns.csv", *SHELF[:6], "--im", "pga,pgv")
+    assert "lowest levels at which motions reach the limit, where the curve counts all levels" in " ".join(result.stdout.split())

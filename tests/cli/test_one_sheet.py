@@ -171,3 +171,9 @@ def test_figure_separates_hits_and_misses(sheets):
     threshold, ratio = left.collections[0].get_offsets()[0]
     # a worn base of 0.9 B rocks at 0.9 g B/H
     assert threshold == pytest.approx(0.9 * 980.665 / ratio)
+
+
+def test_inferred_pga_has_three_digits():
+    """280.1 to 1070.1 gal in the first line stated digits that a factor of four between its ends does not have."""
+    text = " ".join(CliRunner().invoke(main, ["infer", "--rate", "35/100", "--cemetery", "aoyama.csv"]).stdout.split())
+    assert text.startswith("aoyama: PGA 455 gal (280 to 1070, 90 % interval) at 0.5-3 Hz")

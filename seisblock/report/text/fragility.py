@@ -66,6 +66,12 @@ def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None
             "beta: efficiency, the smaller the better; slopes: sufficiency, trend of the residuals with magnitude and "
             "distance; p: its p-value"
         )
+        if with_measures[0].method == STRIPES:
+            text = N_(
+                "median and beta: of the lowest levels at which motions reach the limit, where the curve counts all levels; "
+                "beta: efficiency, the smaller the better; slopes: sufficiency, trend of the residuals with magnitude and "
+                "distance; p: its p-value"
+            )
         caption = styled_line(gettext(text), "dim")
         yield caption if len(measure_tables) == 1 else details(caption)
 

@@ -35,17 +35,9 @@ def estimate_tables(
     """Yield the joint estimates, one table per group of stones (PGA, PGV, threshold H/B, JMA intensity) and the notes."""
     level = assumptions.level
     for estimate in joint[:1]:
-        low, high = (acceleration_cell(end, gal=gal) for end in estimate.pga_interval_m_s2)
-        yield styled_line(
-            gettext(
-                "{names} combined: PGA {pga} {unit} ({low} to {high}).",
-                names=list(estimate.names),
-                pga=acceleration_cell(estimate.pga_m_s2, gal=gal),
-                unit=acceleration_unit(gal=gal).name,
-                low=low,
-                high=high,
-            )
-        )
+        pga, low, high = _accelerations(estimate, gal=gal)
+        text = "{names} combined: PGA {pga} {unit} ({low} to {high})."
+        yield styled_line(gettext(text, names=list(estimate.names), pga=pga, unit=acceleration_unit(gal=gal).name, low=low, high=high))
     if not joint:
         yield from (styled_line(sentence) for sentence in verdicts(name, estimates, gal=gal, level=level))
     speed, unit = velocity_unit(gal=gal)
@@ -95,21 +87,25 @@ def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, leve
             else gettext("{cemetery}, stones {stones}", cemetery=site or name, stones=gettext(kind))
         )
         at = gettext("0.5-3 Hz") if estimate.frequency_hz is None else f"{estimate.frequency_hz:.3g} Hz"
-        pga = (
-            acceleration_cell(estimate.pga_m_s2, gal=gal)
-            if estimate.bound is None
-            else _format_interval(estimate.pga_interval_m_s2, acceleration_unit(gal=gal).size)
-        )
+        pga, low, high = _accelerations(estimate, gal=gal)
+        if estimate.bound is not None:
+            pga = _format_interval(estimate.pga_interval_m_s2, acceleration_unit(gal=gal).size)
         values = {"who": label, "pga": f"{pga} {acceleration_unit(gal=gal).name}", "at": at, "intensity": _intensity(estimate)}
         if estimate.bound is not None:
             text = gettext("{who}: PGA {pga} at {at}; JMA intensity {intensity}.", **values)
         else:
-            low, high = (acceleration_cell(end, gal=gal) for end in estimate.pga_interval_m_s2)
             template = N_("{who}: PGA {pga} ({low} to {high}, {level:g%} interval) at {at}; JMA intensity {intensity}.")
             text = gettext(template, low=low, high=high, level=level, **values)
         by_rule = estimate.jma_class_by_rule
         notes = [] if by_rule is None else [gettext("By the surveyors' rule: class {name}.", name=gettext(by_rule))]
         yield with_notes(text, notes)
+
+
+def _accelerations(estimate: ShakingEstimate | JointEstimate, *, gal: bool) -> list[str]:
+    """Return the median PGA and the ends of its interval to three significant digits."""
+    unit = acceleration_unit(gal=gal).size
+    values = (estimate.pga_m_s2, *estimate.pga_interval_m_s2)
+    return [format_number(None if value is None else value / unit, 3) for value in values]
 
 
 def _format_interval(interval: Interval, unit: float) -> str:
