@@ -463,7 +463,7 @@ def test_find_measures_requires_no_restraint_of_a_safe_object():
     result = find_measures(SolverBody("box", Block(0.4, 0.6, mass=80.0), RespondOptions(mu=0.5)), records, target=0.05)
     values = {measure.measure: measure.value for measure in result.measures}
     assert result.overturning_probability == values[BASE_MASS] == values[RESTRAINT] == 0.0
-    assert measure_note(result.measures[-1]) == ""
+    assert measure_note(result.measures[-1]) == "" and {share for _, share in result.measures[-1].curve} == {0.0}
 
 
 def test_scenario_suite_rejects_too_few_records():

@@ -374,7 +374,9 @@ def find_measures(
     restraint = _restraint(search, target, body.body.height if height is None else height, has_mass=has_mass)
     own_probability = search.own_probability()
     if own_probability <= target:
-        restraint = replace(restraint, value=0.0, overturning_probability=own_probability, moment=0.0, foot_force=None)
+        # the object would load a restraint that it does not need
+        curve = tuple((force, own_probability) for force in (0.0, restraint.curve[-1][0]))
+        restraint = replace(restraint, value=0.0, overturning_probability=own_probability, moment=0.0, foot_force=None, curve=curve)
     years = None if frequencies is None else frequencies.years
     return Security(body.name, target, own_probability, search.runs, (*measures, restraint), years)
 
