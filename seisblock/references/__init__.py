@@ -45,7 +45,7 @@ TOPIC_PAPERS: dict[str, tuple[str, ...]] = {
     "gravestones as fitted": ("Furukawa2009",),
     "gravestones as blocks": ("Furukawa2009", "Housner1963"),
     "intensity of a velocity": ("Midorikawa1999",),
-    "fit": ("AndrieuRoberts2009", "Cornuet2012", "Richtmyer1951", "Brier1950"),
+    "fit": ("AndrieuRoberts2009", "Cornuet2012", "DelMoral2006", "Neyman1934", "Richtmyer1951", "Brier1950"),
     "fragility": ("Baker2015", "Vamvatsikos2002", "LucoCornell2007", "DimitrakopoulosParaskeva2015", "Lilliefors1967", "SuWei1991"),
     "risk": ("Cornell2002",),
     "scenario": ("JMA1996", "JMA2009", "KornGraubard1998"),

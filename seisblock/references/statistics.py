@@ -69,6 +69,23 @@ STATISTICS = (
         doi="10.1111/j.1467-9469.2011.00756.x",
     ),
     Reference(
+        "DelMoral2006",
+        "Del Moral, P. and Doucet, A. and Jasra, A.",
+        2006,
+        "Sequential Monte Carlo samplers",
+        "Journal of the Royal Statistical Society: Series B, 68(3), 411-436",
+        doi="10.1111/j.1467-9868.2006.00553.x",
+    ),
+    Reference(
+        "Neyman1934",
+        "Neyman, J.",
+        1934,
+        "On the two different aspects of the representative method: the method of stratified sampling and the method of purposive "
+        "selection",
+        "Journal of the Royal Statistical Society, 97(4), 558-625",
+        doi="10.2307/2342192",
+    ),
+    Reference(
         "Richtmyer1951",
         "Richtmyer, R. D.",
         1951,

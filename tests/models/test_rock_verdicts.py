@@ -8,9 +8,12 @@ import pytest
 from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import to_block_array
 from seisblock.core.errors import ComponentError, KindError, ParameterError
+from seisblock.dynamics import integrate_many
 from seisblock.models.rock import rock_params, rock_verdict, rock_verdicts, solve_rock
+from seisblock.models.rock.model import REST, parameters
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
+from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.records import Component, Motion, Record, motion_of
 from seisblock.studies.rocking.verdicts import overturns_at, parallel_verdicts
 
@@ -90,3 +93,18 @@ def test_rock_many_rejects_invalid_input_like_single_run():
     ):
         with pytest.raises(error):
             call()
+
+
+def test_rock_verdicts_without_short_hops_are_equal():
+    """Most impacts of a weakly shaken block follow each other within 1 ms: without them at least 98 % of the verdicts are the same."""
+    blocks = to_block_array([Block(0.2, height) for height in np.linspace(0.6, 1.4, 100)])
+    params = rock_batch_params(blocks, MOTION, options=RockOptions(restitution=0.97))
+    full, short = (rock_verdicts(params, MOTION, (0.6, 0.0, 0.0), **how) for how in ({}, {"min_hop": 1e-3}))
+    assert full.overturned.any() and not full.overturned.all()
+    assert (full.overturned == short.overturned).mean() >= 0.98
+    np.testing.assert_allclose(np.median(short.max_rotation_ratio), np.median(full.max_rotation_ratio), rtol=1e-3)
+    events = [
+        integrate_many(ROCKING_SIMD_MODEL, MOTION, parameters(params, MOTION.dt, *hop), np.zeros(2), REST, gains=(0.6, 0.0, 0.0)).n_events
+        for hop in ((), (1e-3,))
+    ]
+    assert events[1].sum() < 0.6 * events[0].sum()

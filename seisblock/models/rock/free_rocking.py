@@ -89,7 +89,7 @@ def trace_free_rocking(p, theta, omega, max_leans, legs):
 
     Parameters
     ----------
-    p : (11,) array
+    p : (12,) array
         Parameters of :mod:`seisblock.models.rock.model`.
     theta, omega : float, rad, rad/s
         Positive to +x.
@@ -163,7 +163,7 @@ def trace_free_rocking_batch(parameters, states, modes, endings, max_leans):
 
     Parameters
     ----------
-    parameters, states : (m, 11), (m, 2) arrays
+    parameters, states : (m, 12), (m, 2) arrays
     modes : (m,) array of int
         Modes of :mod:`seisblock.models.rock.model`.
     endings : (m,) array of int

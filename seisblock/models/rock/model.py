@@ -63,6 +63,7 @@ ALONG, ACROSS, UPWARD = range(3)
     GRAVITY,
     DT,
     IS_LINEAR,
+    MIN_HOP,
     ALPHA_RIGHT,
     ALPHA_LEFT,
     THRESHOLD_RIGHT,
@@ -71,10 +72,10 @@ ALONG, ACROSS, UPWARD = range(3)
     LEVER_LEFT,
     RESTITUTION_RIGHT,
     RESTITUTION_LEFT,
-) = range(11)
+) = range(12)
 
 REST_HOP = 1e-8
-"""Time between two impacts below which rocking ends, s."""
+"""Time between two impacts below which rocking ends by default, s."""
 
 
 class RockPhase(Term):
@@ -93,10 +94,13 @@ MODES = tuple(RockPhase)
 HALF_PI = math.pi / 2
 
 
-def parameters(params: RockParams | RockBatchParams, dt: float) -> FloatArray:
-    """Return the parameter vector of the model, ``GRAVITY`` to ``RESTITUTION_LEFT``: (11,) of one block, (m, 11) of many."""
+def parameters(params: RockParams | RockBatchParams, dt: float, min_hop: float = REST_HOP) -> FloatArray:
+    """Return the parameter vector of the model, ``GRAVITY`` to ``RESTITUTION_LEFT``: (12,) of one block, (m, 12) of many.
+
+    `min_hop` is the time between two impacts, s, below which rocking ends.
+    """
     corners = np.concatenate([params.alphas, params.thresholds, params.levers, params.restitutions], axis=-1)
-    common_values = np.broadcast_to([params.gravity, dt, float(params.linear)], (*corners.shape[:-1], 3))
+    common_values = np.broadcast_to([params.gravity, dt, float(params.linear), min_hop], (*corners.shape[:-1], 4))
     return np.concatenate([common_values, corners], axis=-1)
 
 
@@ -195,7 +199,7 @@ def reset(mode, guard, y, f, p):
         restoring_acceleration = p[LEVER_LEFT] * slack * (1.0 if p[IS_LINEAR] != 0.0 else math.cos(p[ALPHA_LEFT]))
         target_mode = TO_LEFT
     # duration of the next hop, 2 omega/theta''
-    if 2.0 * abs(y[OMEGA]) <= REST_HOP * restoring_acceleration:
+    if 2.0 * abs(y[OMEGA]) <= p[MIN_HOP] * restoring_acceleration:
         y[OMEGA] = 0.0
         return REST
     return target_mode

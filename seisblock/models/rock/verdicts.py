@@ -94,7 +94,9 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, options: R
     return Verdict(bool(verdicts.overturned[0]), float(verdicts.max_rotation_ratio[0]))
 
 
-def rock_verdicts(params: RockBatchParams | Sequence[RockParams], motion: Motion, gains: ArrayLike) -> Verdicts:
+def rock_verdicts(
+    params: RockBatchParams | Sequence[RockParams], motion: Motion, gains: ArrayLike, *, min_hop: float = model.REST_HOP
+) -> Verdicts:
     """Return the verdicts of many blocks, or of one block under many gains.
 
     Parameters
@@ -104,6 +106,8 @@ def rock_verdicts(params: RockBatchParams | Sequence[RockParams], motion: Motion
     motion : Motion
     gains : (3,) or (m, 3) array
         Factors on the motion's rows; the rows along and across are summed, so that (cos(a), -sin(a), 1) rotates the motion by a clockwise.
+    min_hop : float, s
+        Time between two impacts below which rocking ends; weakly shaken blocks make most of their impacts within such times.
 
     Returns
     -------
@@ -112,7 +116,7 @@ def rock_verdicts(params: RockBatchParams | Sequence[RockParams], motion: Motion
     """
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
     groups = [params] if isinstance(params, RockBatchParams) else params
-    p = np.concatenate([np.atleast_2d(model.parameters(group, motion.dt)) for group in groups])
+    p = np.concatenate([np.atleast_2d(model.parameters(group, motion.dt, min_hop)) for group in groups])
     runs = max(len(p), len(rows))
     # one block under many gains shares its parameters; the engine expects a row per run
     p = np.repeat(p, runs, axis=0) if len(p) == 1 else p

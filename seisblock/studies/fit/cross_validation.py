@@ -10,7 +10,7 @@ from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.studies.fit.dataset import Experiment
 from seisblock.studies.fit.importance_sampling import ImportanceSample
 from seisblock.studies.fit.likelihood import LapseRate, log_likelihood, log_likelihoods_held_out
-from seisblock.studies.intervals import effective_sample_size, wilson_interval
+from seisblock.studies.intervals import wilson_interval
 
 CALIBRATION_BINS = (0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0)
 """Edges of the calibration bins, probability."""
@@ -98,7 +98,7 @@ def predict_held_out(experiment: Experiment, sample: ImportanceSample, lapse: La
     # the outcomes of one record are not independent: whole records are held out
     for rows, logs in log_likelihoods_held_out(sample.shares, experiment, folds[experiment.record], lapse):
         weights = sample.log_weights(logs)
-        min_effective = min(min_effective, effective_sample_size(np.exp(weights).sum(axis=0)))
+        min_effective = min(min_effective, sample.effective_size(weights))
         probability[rows] = _predictive_probability(sample, lapse, weights, experiment.shaking[rows])
     return probability, float(min_effective)
 

@@ -232,10 +232,10 @@ def fit_block(
     level : float, 1
         Level of the intervals, between 0 and 1.
     runs : int
-        Samples of each block under each shaking: 1, 2, 4 ... 64.
+        Samples of each block under each shaking, 1, 2, 4 ... 64, or as precise: fewer where blocks agree, more where they do not.
     seed : int
     progress : callable
-        Called with the number of simulated shakings and an estimate of the total.
+        Called with the number of simulated samples and an estimate of the total.
 
     Returns
     -------
@@ -304,7 +304,7 @@ def fit_block(
         pga,
         pgv,
         family.values(sample.unit_points[draw_rows]),
-        len(sample.unit_points),
+        len(np.unique(sample.origin)),
         effective,
         runs,
         seed,

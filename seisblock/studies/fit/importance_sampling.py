@@ -4,12 +4,15 @@ Blocks are points of a unit cube with a uniform prior (:mod:`seisblock.studies.f
 around the best points of the previous ones; the weight of a point is its likelihood over the density of the mixture of all
 proposals at that point ([Cornuet2012]_ section 3), which is unbiased for any proposal. While the points are few, the likelihood is
 tempered: raised to the largest power below one that leaves enough effective points.
+
+A proposal need not be exact: it uses shares that are averages over neighbouring points, so that the search needs one sample of each
+block under each shaking. The weights use each point's own samples, in numbers that depend on what they contribute to the error.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -106,11 +109,17 @@ def make_proposal(unit_points: FloatArray, weights: FloatArray, count: int, rng:
 INITIAL_BLOCKS = 64
 """Initial points, uniform over the cube, times two per dimension."""
 
-SEARCH_BLOCKS, PROPOSAL_BLOCKS = 128, 256
-"""Points of each proposal of the search, and of the posterior sample."""
+SEARCH_BLOCKS, CANDIDATES, PROPOSAL_BLOCKS = 128, 1024, 256
+"""Points of each proposal of the search; of the posterior sample, before and after the choice by the shares of neighbours."""
 
-SEARCH_RUNS = 4
+GROUPS = 12
+"""Groups of shakings between which likely points are copied and others dropped."""
+
+SEARCH_RUNS = 1
 """Samples of each block during the search."""
+
+NEIGHBOURS = 16
+"""Points whose shares are averaged for a proposal."""
 
 MIN_EFFECTIVE, TARGET_EFFECTIVE, MIN_EFFECTIVE_WITHOUT = 50.0, 200.0, 30.0
 """Effective sample sizes: of a proposal, of the posterior sample, and with outcomes held out."""
@@ -118,7 +127,7 @@ MIN_EFFECTIVE, TARGET_EFFECTIVE, MIN_EFFECTIVE_WITHOUT = 50.0, 200.0, 30.0
 PROPOSAL_POWER = 0.8
 """Power of the likelihood of a proposal: wide enough for the posterior with outcomes held out."""
 
-MAX_SEARCHES, MAX_PROPOSALS = 12, 12
+MAX_SEARCHES, MAX_PROPOSALS = 12, 24
 """Largest number of proposals of the search, and of the posterior sample."""
 
 
@@ -133,12 +142,15 @@ class ImportanceSample:
     shares : (shakings, n) array of int
         Falls of 64 samples.
     log_density : (n,) array
-        Logarithm of the proposal density.
+        Logarithm of the density of the points: that of the proposals times the expected number of copies.
+    origin : (n,) array of int
+        Number of the draw of each point; copies of one draw are not independent.
     """
 
     unit_points: FloatArray
     shares: IntArray
     log_density: FloatArray
+    origin: IntArray
 
     def log_weights(self, log_likelihoods: FloatArray) -> FloatArray:
         """Return the log weights of each lapse rate and each block, (l, n), with a maximum of zero."""
@@ -147,13 +159,17 @@ class ImportanceSample:
         shifted: FloatArray = logs - logs.max()
         return shifted
 
+    def effective_size(self, log_weights: FloatArray) -> float:
+        """Return the effective number of independent draws for the log weights of each lapse rate and each block, (l, n)."""
+        return effective_sample_size(np.bincount(self.origin, np.exp(log_weights).sum(axis=0)).astype(np.float64))
+
 
 def min_effective_without(sample: ImportanceSample, experiment: Experiment, parts: IntArray, lapse: LapseRate) -> float:
     """Return the smallest effective sample size when one of the parts of the outcomes is held out."""
     if not parts.any():
         return np.inf
     held_out_logs = log_likelihoods_held_out(sample.shares, experiment, parts, lapse)
-    return min(effective_sample_size(np.exp(sample.log_weights(logs)).sum(axis=0)) for _, logs in held_out_logs)
+    return min(sample.effective_size(sample.log_weights(logs)) for _, logs in held_out_logs)
 
 
 def sample_posterior(
@@ -177,118 +193,180 @@ def sample_posterior(
         Samples of each block under each shaking, a power of two.
     seed : int
     progress : callable
-        Called with the number of simulated shakings and an estimate of the total.
+        Called with the number of simulated samples and an estimate of the total.
     """
     # search: temper until a proposal suits the likelihood at PROPOSAL_POWER
-    search = _Sampler(experiment, family, lapse, seed, progress)
-    sample = search.first()
+    sampler = _Sampler(experiment, family, lapse, runs, seed, progress)
+    sample, proposals = sampler.first(), list[Proposal]()
     for _ in range(MAX_SEARCHES):
-        power, weights = search.temper(sample, PROPOSAL_POWER)
-        proposal = make_proposal(sample.unit_points, weights, PROPOSAL_BLOCKS if power == PROPOSAL_POWER else SEARCH_BLOCKS, search.rng)
+        power, weights = sampler.temper(sample)
         if power == PROPOSAL_POWER:
             break
-        sample = search.add_proposal(sample, proposal, np.full(len(experiment.shakings), SEARCH_RUNS))
+        proposals.append(sampler.make_proposal(sample, weights, SEARCH_BLOCKS))
+        sample = sampler.extend_search(sample, proposals)
     # posterior: the search's points are dropped, as few samples per block made their shares coarse
-    posterior, proposals = None, []
+    posterior, proposals, log_copies = None, [], np.empty(0)
     for iteration in range(MAX_PROPOSALS):
-        proposals.append(proposal)
-        # runs are spent where likely blocks disagree: elsewhere more of them would change nothing
-        run_counts = search.runs_per_shaking(sample if posterior is None else posterior, runs)
-        posterior = search.extend_sample(posterior, proposals, run_counts)
-        weights = np.exp(posterior.log_weights(search.log_likelihoods(posterior))).sum(axis=0)
+        run_counts, order = sampler.runs_per_shaking(sample)
+        proposals.append(sampler.make_proposal(sample, weights, CANDIDATES))
+        posterior, log_copies = sampler.extend_posterior(posterior, proposals, log_copies, run_counts, order)
+        effective = posterior.effective_size(posterior.log_weights(sampler.log_likelihoods(posterior.shares)))
         if (
             iteration
-            and effective_sample_size(weights) >= TARGET_EFFECTIVE
+            and effective >= TARGET_EFFECTIVE
             and min_effective_without(posterior, experiment, parts, lapse) >= MIN_EFFECTIVE_WITHOUT
         ):
             break
-        proposal = make_proposal(posterior.unit_points, search.temper(posterior, PROPOSAL_POWER)[1], PROPOSAL_BLOCKS, search.rng)
+        sample = posterior
+        weights = sampler.temper(sample)[1]
     assert posterior is not None
-    return posterior, effective_sample_size(weights)
+    return posterior, effective
 
 
 @dataclass(eq=False)
 class _Sampler:
-    """State of the sampler: experiment, proposals so far and progress."""
+    """State of the sampler: experiment, simulated points, metric of neighbours and progress."""
 
     experiment: Experiment
     family: BlockFamily
     lapse: LapseRate
+    runs: int
     seed: int
     progress: Progress | None
-    run_count: int = 0
 
     def __post_init__(self) -> None:
         self.rng = np.random.default_rng([self.seed, 1])
-        self.proposals: list[Proposal] = []
         self.initial_count = INITIAL_BLOCKS * 2 ** len(self.family.axes)
+        self.root = np.eye(len(self.family.axes))
+        self.simulated: list[tuple[FloatArray, IntArray]] = []
+        self.batch_count = self.sample_count = 0
 
-    def log_likelihoods(self, sample: ImportanceSample) -> FloatArray:
+    def log_likelihoods(self, shares: IntArray) -> FloatArray:
         """Return the log likelihood of each lapse rate and each block, (l, n)."""
-        return log_likelihood(sample.shares, *self.experiment.outcome_counts(), self.lapse)
+        return log_likelihood(shares, *self.experiment.outcome_counts(), self.lapse)
 
     def first(self) -> ImportanceSample:
         """Return quasi-random points over the whole cube."""
         d = len(self.family.axes)
         # random offset of a low-discrepancy sequence: even, and unbiased
         unit_points = (self.rng.random(d) + quasi_random_points(self.initial_count, d)) % 1.0
-        shares = self._simulate_shares(unit_points, np.full(len(self.experiment.shakings), SEARCH_RUNS))
-        return ImportanceSample(unit_points, shares, np.zeros(self.initial_count))
+        return ImportanceSample(unit_points, self._search_shares(unit_points), np.zeros(self.initial_count), np.arange(self.initial_count))
 
-    def add_proposal(self, sample: ImportanceSample, proposal: Proposal, runs: IntArray) -> ImportanceSample:
-        """Return a sample extended by the points of a proposal."""
-        self.proposals.append(proposal)
-        unit_points = np.concatenate([sample.unit_points, proposal.points])
-        shares = np.concatenate([sample.shares, self._simulate_shares(proposal.points, runs)], axis=1)
-        return ImportanceSample(unit_points, shares, _log_mixture(unit_points, self.proposals, self.initial_count))
+    def make_proposal(self, sample: ImportanceSample, weights: FloatArray, count: int) -> Proposal:
+        """Return a proposal around weighted points; its shape is the metric of neighbours from now on."""
+        proposal = make_proposal(sample.unit_points, weights, count, self.rng)
+        self.root = proposal.root
+        return proposal
 
-    def extend_sample(self, sample: ImportanceSample | None, proposals: list[Proposal], runs: IntArray) -> ImportanceSample:
+    def extend_search(self, sample: ImportanceSample, proposals: list[Proposal]) -> ImportanceSample:
         """Return a sample extended by the points of the last of several proposals."""
-        unit_points, shares = proposals[-1].points, self._simulate_shares(proposals[-1].points, runs)
-        if sample is not None:
-            unit_points, shares = np.concatenate([sample.unit_points, unit_points]), np.concatenate([sample.shares, shares], axis=1)
-        return ImportanceSample(unit_points, shares, _log_mixture(unit_points, proposals, 0))
+        unit_points = np.concatenate([sample.unit_points, proposals[-1].points])
+        shares = np.concatenate([sample.shares, self._search_shares(proposals[-1].points)], axis=1)
+        return ImportanceSample(unit_points, shares, _log_mixture(unit_points, proposals, self.initial_count), np.arange(len(unit_points)))
 
-    def temper(self, sample: ImportanceSample, max_power: float = 1.0) -> tuple[float, FloatArray]:
-        """Return the largest power of the likelihood, up to `max_power`, with enough effective points, and the weights."""
-        likelihoods = self.log_likelihoods(sample)
+    def extend_posterior(
+        self, sample: ImportanceSample | None, proposals: list[Proposal], log_copies: FloatArray, run_counts: IntArray, order: IntArray
+    ) -> tuple[ImportanceSample, FloatArray]:
+        """Return a sample extended by the last of several proposals, and the log of the expected number of copies of each point.
+
+        The shakings are simulated in groups. Before a group, points are dropped or copied at random, so that their expected number is
+        in proportion to the likelihood of the shakings simulated so far, times that of the others with shares of neighbours. Likely
+        points get more samples, and the errors of the groups add up instead of being multiplied. The weight of a point is divided by
+        its expected number of copies, which leaves averages unbiased ([DelMoral2006]_ section 3).
+        """
+        points = proposals[-1].points
+        shares, copies = self.neighbour_shares(points), np.zeros(len(points))
+        log_density, origin = _log_mixture(points, proposals, 0), np.arange(len(points))
+        groups = min(GROUPS, len(order))
+        for k in range(groups):
+            logs = PROPOSAL_POWER * np.logaddexp.reduce(self.log_likelihoods(shares), axis=0) - log_density - copies
+            weights = np.exp(logs - logs.max())
+            if k == 0 or effective_sample_size(weights) < 0.5 * len(weights):
+                expected = PROPOSAL_BLOCKS * weights / weights.sum()
+                # systematic resampling: the number of copies is the expected one, rounded up or down
+                steps = np.floor(np.cumsum(expected) + self.rng.random()).astype(np.int64)
+                chosen = np.repeat(np.arange(len(points)), np.diff(steps, prepend=0))
+                points, shares, log_density, origin = points[chosen], shares[:, chosen], log_density[chosen], origin[chosen]
+                copies = copies[chosen] + np.log(expected[chosen])
+            group = order[k::groups]
+            shares[group] = self._simulate_shares(points, run_counts, group)
+        self.simulated.append((points, shares))
+        log_copies = np.concatenate([log_copies, copies])
+        if sample is not None:
+            points = np.concatenate([sample.unit_points, points])
+            shares = np.concatenate([sample.shares, shares], axis=1)
+            origin = np.concatenate([sample.origin, origin + sample.origin.max() + 1])
+        return ImportanceSample(points, shares, _log_mixture(points, proposals, 0) + log_copies, origin), log_copies
+
+    def neighbour_shares(self, unit_points: FloatArray) -> IntArray:
+        """Return the shares of some points as means over the nearest simulated points: less noise where it need not be unbiased."""
+        from scipy.linalg import solve_triangular
+        from scipy.spatial import cKDTree
+
+        known_points = np.concatenate([points for points, _ in self.simulated])
+        known_shares = np.concatenate([shares for _, shares in self.simulated], axis=1)
+        scaled, scaled_known = (solve_triangular(self.root, points.T, lower=True).T for points in (unit_points, known_points))
+        neighbours = cKDTree(scaled_known).query(scaled, NEIGHBOURS)[1]
+        total = np.zeros((len(known_shares), len(unit_points)))
+        for column in neighbours.T:
+            total += known_shares[:, column]
+        return np.rint(total / NEIGHBOURS).astype(np.uint8)
+
+    def temper(self, sample: ImportanceSample) -> tuple[float, FloatArray]:
+        """Return the largest power of the likelihood, up to PROPOSAL_POWER, with enough effective points, and the weights."""
+        likelihoods = self.log_likelihoods(self.neighbour_shares(sample.unit_points))
 
         def weights(power: float) -> FloatArray:
-            logs = ImportanceSample.log_weights(replace(sample), power * likelihoods)
-            return np.exp(logs).sum(axis=0)
+            return np.exp(sample.log_weights(power * likelihoods)).sum(axis=0)
 
         # with few effective points a proposal would collapse onto them
-        if effective_sample_size(weights(max_power)) >= MIN_EFFECTIVE:
-            return max_power, weights(max_power)
+        if effective_sample_size(weights(PROPOSAL_POWER)) >= MIN_EFFECTIVE:
+            return PROPOSAL_POWER, weights(PROPOSAL_POWER)
         # the effective sample size decreases with the power: bisection
-        low, high = 0.0, max_power
+        low, high = 0.0, PROPOSAL_POWER
         for _ in range(30):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if effective_sample_size(weights(middle)) >= MIN_EFFECTIVE else (low, middle)
         return low, weights(low)
 
-    def runs_per_shaking(self, sample: ImportanceSample, runs: int) -> IntArray:
-        """Return the samples per block of each shaking: few if all likely blocks agree, more if it is repeated."""
-        weights = self.temper(sample)[1]
-        shares = sample.shares[:, weights > 1e-4 * weights.max()]
-        is_unanimous = (shares == 0).all(axis=1) | (shares == SHARE_DENOMINATOR).all(axis=1)
-        repetitions = np.maximum(sum(self.experiment.outcome_counts()), 1.0)
-        # the noise of a share matters where likely blocks disagree, and enters once per repetition
-        run_counts = np.where(is_unanimous, SEARCH_RUNS, runs) * 2 ** np.ceil(np.log2(repetitions)).astype(np.int64)
-        return np.minimum(run_counts, SHARE_DENOMINATOR)
+    def runs_per_shaking(self, sample: ImportanceSample) -> tuple[IntArray, IntArray]:
+        """Return the samples per block of each shaking, and the shakings by decreasing noise.
 
-    def _simulate_shares(self, unit_points: FloatArray, runs: IntArray) -> IntArray:
-        """Return the shares of falls of some blocks under each shaking, in 64ths."""
-        shaking_count, run_index = len(self.experiment.shakings), self.run_count
-        self.run_count += 1
-        # the number of further proposals is unknown: assume half of the maximum, at least one
-        total = shaking_count * (self.run_count + max((MAX_SEARCHES + MAX_PROPOSALS) // 2 - self.run_count, 1))
+        A share q of n samples adds v/n to the relative variance of the likelihood, with v from q (1 - q) and the outcomes. The sum of
+        v/n is that of `runs` samples everywhere; the sum of n is then smallest with n in proportion to the root of v ([Neyman1934]_).
+        """
+        shares = self.neighbour_shares(sample.unit_points)
+        weights = np.exp(sample.log_weights(self.log_likelihoods(shares)))
+        weights /= weights.sum()
+        lapse, block_weights = float(weights.sum(axis=1) @ self.lapse.values), weights.sum(axis=0)
+        q = shares / SHARE_DENOMINATOR
+        # half a sample: none among some blocks is no certainty
+        least = 0.5 / (NEIGHBOURS * effective_sample_size(block_weights))
+        probability = 0.5 * lapse + (1.0 - lapse) * (q @ block_weights)
+        positive, negative = self.experiment.outcome_counts()
+        noise = (positive / probability + negative / (1.0 - probability)) * np.sqrt((q * (1.0 - q)) @ block_weights + least)
+        run_counts = np.clip(self.runs * noise * noise.sum() / (noise @ noise), 1.0, SHARE_DENOMINATOR)
+        return (2 ** np.rint(np.log2(run_counts))).astype(np.int64), np.argsort(-noise, kind="stable")
 
-        def report(count: int, _: int) -> None:
+    def _search_shares(self, unit_points: FloatArray) -> IntArray:
+        """Return the shares of falls of some blocks under each shaking from `SEARCH_RUNS` samples."""
+        shaking_count = len(self.experiment.shakings)
+        shares = self._simulate_shares(unit_points, np.full(shaking_count, SEARCH_RUNS), np.arange(shaking_count))
+        self.simulated.append((unit_points, shares))
+        return shares
+
+    def _simulate_shares(self, unit_points: FloatArray, runs: IntArray, rows: IntArray) -> IntArray:
+        """Return the shares of falls of some blocks under some shakings, in 64ths."""
+        done, self.batch_count = self.sample_count, self.batch_count + 1
+        # the number of proposals is unknown: some for the search, then a few of the posterior sample
+        expected = self.initial_count + 4 * SEARCH_BLOCKS + 2 * PROPOSAL_BLOCKS * self.runs
+
+        def report(count: int, total: int) -> None:
+            self.sample_count = done + count
             if self.progress is not None:
-                self.progress(shaking_count * run_index + count, total)
+                self.progress(self.sample_count, max(expected * len(self.experiment.shakings), done + total))
 
-        return outcome_shares(self.experiment, self.family, unit_points, runs, (self.seed, run_index), progress=report)
+        return outcome_shares(self.experiment, self.family, unit_points, runs, (self.seed, self.batch_count), rows=rows, progress=report)
 
 
 def _log_mixture(unit_points: FloatArray, proposals: list[Proposal], initial_count: int) -> FloatArray:

@@ -16,6 +16,9 @@ from seisblock.studies.parallel import map_threads
 SHARE_DENOMINATOR = 64
 """Denominator of the shares: the largest number of samples per shaking, and a multiple of every number."""
 
+MIN_HOP = 1e-3
+"""Time between two impacts below which rocking ends, s: with p of 25 rad/s it neglects tilts of 1e-4 alpha."""
+
 CHUNK_SIZE = 2**21
 """Samples times runs of one batch."""
 
@@ -27,6 +30,7 @@ def outcome_shares(
     runs: IntArray,
     seed: tuple[int, ...],
     *,
+    rows: IntArray | None = None,
     progress: Progress | None = None,
 ) -> IntArray:
     """Return the share of samples of each block that fall, or move, under each shaking, in 64ths, (shakings, blocks).
@@ -43,8 +47,10 @@ def outcome_shares(
     runs : (shakings,) array of int
         Samples of each block under each shaking: 1, 2, 4 ... 64.
     seed : tuple of int
+    rows : (k,) array of int
+        Shakings to simulate; default: all.
     progress : callable
-        Called with the number of finished shakings and the total.
+        Called with the number of finished samples and their total.
     """
 
     def work(k: int) -> IntArray:
@@ -59,16 +65,18 @@ def outcome_shares(
             params, gains = family.versions(
                 np.repeat(unit_points[part], run_count, axis=0), shifts[part].reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
             )
-            verdicts = rock_verdicts(params, shaking.motion, gains).require_complete()
+            verdicts = rock_verdicts(params, shaking.motion, gains, min_hop=MIN_HOP).require_complete()
             events = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
             event_counts[part] = events.reshape(-1, run_count).sum(axis=1)
         return event_counts * (SHARE_DENOMINATOR // run_count)
 
-    results: Generator[IntArray, None, None] = map_threads(work, range(len(experiment.shakings)))
-    rows = []
+    rows = np.arange(len(experiment.shakings)) if rows is None else rows
+    finished = len(unit_points) * np.cumsum(runs[rows])
+    results: Generator[IntArray, None, None] = map_threads(work, rows.tolist())
+    shares = []
     with closing(results):
-        for count, row in enumerate(results, start=1):
-            rows.append(row.astype(np.uint8))
+        for count, share in zip(finished, results, strict=True):
+            shares.append(share.astype(np.uint8))
             if progress is not None:
-                progress(count, len(experiment.shakings))
-    return np.array(rows)
+                progress(int(count), int(finished[-1]))
+    return np.array(shares)
