@@ -105,9 +105,9 @@ def wall(mu):
 
 
 HARD = {
-    "10 sliding slabs": (slabs(10), 2.0, 8.0),
-    "20 sliding slabs": (slabs(20), 2.0, 1.5),
-    "wall of 40": (wall(0.5), 0.4, 0.2),
+    "10 sliding slabs": (slabs(10), 2.0, 15.0),
+    "20 sliding slabs": (slabs(20), 2.0, 4.0),
+    "wall of 40": (wall(0.5), 0.4, 0.3),
 }
 """Pile, seconds of shaking, and simulated seconds per second that it reaches at least."""
 
@@ -121,7 +121,7 @@ def test_hard_piles(case, benchmark):
     assert benchmark.stats is None or response.time[-1] / benchmark.stats.stats.min > minimum
 
 
-@pytest.mark.parametrize("count", [5, 10, 14])
+@pytest.mark.parametrize("count", [5, 10, 20])
 def test_sliding_slabs_and_mujoco(count, benchmark):
     """Slabs that slide on each other in both directions, the hard case: at least as fast as MuJoCo at 2 ms, in one run, in turns."""
     pytest.importorskip("mujoco", reason="an extra: pip install seisblock[mujoco]")
@@ -134,3 +134,67 @@ def test_sliding_slabs_and_mujoco(count, benchmark):
     assert not results["seisblock"].outcome.overturned_any
     if benchmark.enabled:
         assert speed["seisblock"] > speed["MuJoCo 2 ms"]
+
+
+def pagoda(storeys):
+    """Return a pagoda: a body and a wider roof per storey, both narrower by 5 % from storey to storey."""
+    stones, side = [], 1.6
+    for i in range(storeys):
+        for part, share, height in (("body", 0.6, 0.28 - 0.008 * i), ("roof", 1.0, 0.22 - 0.006 * i)):
+            stone = PileStone(f"{part}{i}", share * side, share * side, height)
+            stones.append(replace(stone, on=stones[-1].name) if stones else stone)
+        side *= 0.95
+    return Pile("pagoda", tuple(stones), mu=0.5)
+
+
+def record_of_a_minute(pga):
+    """Return noise about 2.5 Hz under the envelope of an earthquake, 60 s at 100 Hz, along three axes."""
+    rng, time = np.random.default_rng(1), np.arange(0.0, 60.0, 0.01)
+    envelope, f = np.minimum(time / 5.0, 1.0) * np.exp(-np.maximum(time - 15.0, 0.0) / 12.0), np.fft.rfftfreq(len(time), 0.01)
+    response = (f / 0.3) ** 2 / (1.0 + (f / 0.3) ** 2) / (1.0 - (f / 2.5) ** 2 + 1.2j * f / 2.5)
+    rows = [envelope * np.fft.irfft(np.fft.rfft(rng.normal(size=len(time))) * response, len(time)) for _ in range(3)]
+    return Motion(np.array([share * pga * row / np.abs(row).max() for share, row in zip((1.0, 0.8, 0.5), rows, strict=True)]), 0.01)
+
+
+@pytest.mark.parametrize(("pile", "pga"), [(pagoda(13), 4.0), (wall(0.5), 3.0)], ids=["pagoda of 13 storeys", "wall of 40"])
+@pytest.mark.slow
+def test_record_of_a_minute(pile, pga, benchmark):
+    """A record of 60 s takes at most 30 s, and every step is solved."""
+    start = process_time()
+    response = benchmark.pedantic(solve_stack, (pile, record_of_a_minute(pga)), rounds=1)
+    assert not response.warnings
+    assert benchmark.stats is None or process_time() - start < 30.0
+
+
+@pytest.mark.slow
+def test_sliding_slabs_and_mujoco_at_equal_error(benchmark):
+    """Ten slabs with one friction slide as one: error of their places at the end against one slab at fine steps, and time.
+
+    The default step has a smaller error than MuJoCo at 0.2 ms, whose slabs creep on their soft contacts at any step.
+    """
+    pytest.importorskip("mujoco", reason="an extra: pip install seisblock[mujoco]")
+    from tests.crosscheck.mujoco_pile import simulate
+
+    motion, pile = shaking_along_three_axes(1.0), slabs(10)
+    at = (motion.samples - 1) * motion.dt
+
+    def places(stones, response):
+        return np.array([[np.interp(at, response.time, response[f"{name}_{axis}"]) for axis in "xy"] for name in stones.names])
+
+    exact = places(slabs(1), solve_stack(slabs(1), motion, step=1e-4))[0]
+    runs = {
+        "seisblock": lambda: places(pile, solve_stack(pile, motion)),
+        "MuJoCo 0.2 ms": lambda: [data.xpos[1:, :2].copy() for data in simulate(pile, motion, 2e-4)][-1],
+    }
+    seconds, errors = {}, {}
+
+    def turn():
+        for name, run in runs.items():
+            start = process_time()
+            errors[name] = np.abs(run() - exact).max()
+            seconds[name] = min(seconds.get(name, np.inf), process_time() - start)
+
+    benchmark.pedantic(turn, rounds=2)
+    assert errors["seisblock"] < 0.05 * np.abs(exact).max()
+    assert errors["seisblock"] < 0.2 * errors["MuJoCo 0.2 ms"]
+    assert not benchmark.enabled or seconds["seisblock"] < seconds["MuJoCo 0.2 ms"] / 3.0

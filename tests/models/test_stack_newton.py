@@ -15,9 +15,11 @@ from seisblock.models.stack.constraint_row import (
     ARM_B,
     CONE_CENTRE,
     IMPULSE,
+    LAW_CHANGE,
     MIN_NORMAL_VELOCITY,
     MU,
     NORMAL,
+    PROJECTED,
     ROW_COLUMNS,
     VELOCITY_COLUMNS,
     set_delassus_block,
@@ -102,6 +104,28 @@ def test_solve_newton_obeys_signorini_and_coulomb(count, mu):
         np.testing.assert_allclose(velocities[:count, :6] - start[:count, :6], change, atol=1e-12)
     assert slides > 10 * count
     assert opens > 0
+
+
+@pytest.mark.parametrize("state", ["sticks", "slides", "slides in a shifted cone"])
+def test_slope_of_law_is_derivative_of_projected_impulse(state):
+    """The impulse of a contact, as it follows from its trial impulse, changes with the velocity as linearised where the law holds."""
+    _, rows, *_ = tower(np.random.default_rng(1), 1, 0.5)
+    row, velocity = rows[0], np.array([0.0, 0.0, 0.0] if state == "sticks" else [0.3, 0.1, 0.0])
+    row[CONE_CENTRE : CONE_CENTRE + 2] = (-0.2, 0.1) if state == "slides in a shifted cone" else (0.0, 0.0)
+    row[MU] = 0.25
+    along = row[CONE_CENTRE : CONE_CENTRE + 3] - (row[MU] * velocity / max(np.linalg.norm(velocity), 1e-300))
+    row[IMPULSE : IMPULSE + 3] = 2.0 * (np.array([0.0, 0.0, 1.0]) + (along if state != "sticks" else np.array([0.1, 0.0, 0.0])))
+    assert newton._linearise(row, 1e-2, *velocity) < 1e-12
+    # a solution of the law is its own projection, and its linearised law asks for no change
+    np.testing.assert_allclose(row[PROJECTED : PROJECTED + 3], row[IMPULSE : IMPULSE + 3], rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(row[LAW_CHANGE : LAW_CHANGE + 3], 0.0, atol=1e-9)
+    if state == "sticks":
+        return
+    # friction turns with the slip: its derivative is -mu P_n / |u| across the slip, 0 along it
+    across = np.array([-velocity[1], velocity[0], 0.0]) / np.linalg.norm(velocity)
+    expected = 0.25 * 2.0 / np.linalg.norm(velocity) * across
+    np.testing.assert_allclose(newton._law_slope(row, *across), expected, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(newton._law_slope(row, *velocity), 0.0, atol=1e-12)
 
 
 def test_hessian_is_derivative_of_gradient():

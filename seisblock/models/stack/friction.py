@@ -5,15 +5,16 @@ friction acts against s until then, and Coulomb's law from rest holds for the re
 
     P_t = -mu_k f s P_n + Q ,   |Q| <= mu (1 - f) P_n ,   mu = mu_s where it stays, mu_k where it slides on   (derived here).
 
-A stopping point changes the load of the others: if several points stop in a step, the first ones are fixed and the others are solved
-again. Slabs with equal friction in all joints slide as one body, the upper joint at its limit; without this order nothing would brake
-the upper slab when the lower one turns.
+A stopping point changes the load of the others: if several points of a stone stop in a step, the first ones are fixed and the others are
+solved again. Slabs with equal friction in all joints slide as one body, the upper joint at its limit; without this order nothing would
+brake the upper slab when the lower one turns.
 
 A point that keeps sliding has f = 1/2: half of the friction acts against the old direction, half against the new one, which follows a
 turning direction to second order in the step. The direction turns fastest where the slip is slowest, so a step ends where the slip would
-turn too far under the previous forces. A point that starts to slide has static friction until then; the instant follows from the forces
-of the previous and of the present step. Friction against the velocity at the end of the step alone would oppose a turning slip by mu_k g
-times the step on average, and hold a starting slip for one step too long.
+turn too far under the previous forces, unless it concerns a small share of the sliding load: of the many points of a wall, some turn in
+every step. A point that starts to slide has static friction until then; the instant follows from the forces of the previous and of the
+present step. Friction against the velocity at the end of the step alone would oppose a turning slip by mu_k g times the step on average,
+and hold a starting slip for one step too long.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from seisblock.models.stack.constraint_row import (
     MU,
     NORMAL,
     ROTATION_BIAS,
+    SEARCH_DIRECTION,
     SLIP_DIRECTION,
     SLIP_SPEED,
     SLIP_STATE,
@@ -41,6 +43,7 @@ from seisblock.models.stack.constraint_row import (
     centre_friction_cone,
     relative_velocity,
 )
+from seisblock.models.stack.newton import GRADIENT
 from seisblock.models.stack.pgs import TOLERANCE, creates_energy, impulse_work, solve_contacts, solve_impulses
 from seisblock.models.stack.spring_contact import CACHED_FORCE
 
@@ -61,6 +64,9 @@ STOP_WINDOW = 0.1
 MAX_SLIP_TURN, MIN_TURN_RATIO, MIN_STEP_RATIO = 0.3, 0.05, 0.0625
 """Tangent of the angle by which a slip may turn within a step; lateral over braking acceleration above which a slip turns rather than
 stops; and shortest step that ends for this reason, over a full step."""
+
+MAX_TURNING_SHARE = 0.05
+"""Largest share of the load of the sliding points whose slip may turn by more within a step."""
 
 SLIP_UNCHANGED, SLIP_STOPS, SLIP_REDIRECTS, SLIP_BEGINS, SLIP_DECIDED = range(5)
 """Slip state of a point in a step: as before; stops; has stopped, and stays or leaves in another direction; starts to slide; decided."""
@@ -107,11 +113,17 @@ def max_turn_time(count, duration, time_before, time_left, memory):
     duration, time_before : float, s
         Time over which the velocities were advanced since the slip was recorded, with the forces in the rows; and its part up to the step.
     """
-    min_time = time_left
+    sliding_load = 0.0
     for i in range(count):
         row = memory.constraint_rows[i]
+        # the load of the last step; a column that the solver overwrites later holds the time until the second pass
+        row[SEARCH_DIRECTION] = math.inf
+        row[SEARCH_DIRECTION + 1] = max(
+            row[IMPULSE] * row[NORMAL] + row[IMPULSE + 1] * row[NORMAL + 1] + row[IMPULSE + 2] * row[NORMAL + 2], 0.0
+        )
         if row[IS_STANDING] == 0.0 or row[WAS_SLIDING] == 0.0:
             continue
+        sliding_load += row[SEARCH_DIRECTION + 1]
         u0, u1, u2 = relative_velocity(memory.contact_ids[i, 0], memory.contact_ids[i, 1], row, memory.body_velocities)
         normal_speed = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
         slip_speed = u0 * row[SLIP_DIRECTION] + u1 * row[SLIP_DIRECTION + 1] + u2 * row[SLIP_DIRECTION + 2]
@@ -121,7 +133,21 @@ def max_turn_time(count, duration, time_before, time_left, memory):
         if lateral_rate > MIN_TURN_RATIO * deceleration and lateral_rate + MAX_SLIP_TURN * deceleration > 0.0:
             # the limit is reached where lateral_rate t = MAX_SLIP_TURN (speed - deceleration t); the velocity is that of the middle of the
             # step, hence twice the time
-            min_time = min(min_time, 2.0 * (row[SLIP_SPEED] * MAX_SLIP_TURN / (lateral_rate + MAX_SLIP_TURN * deceleration) - time_before))
+            row[SEARCH_DIRECTION] = 2.0 * (row[SLIP_SPEED] * MAX_SLIP_TURN / (lateral_rate + MAX_SLIP_TURN * deceleration) - time_before)
+    # the first turns are left out while they concern a small share of the load: of many contacts, some turn in every step
+    min_time, turning_load = time_left, 0.0
+    while True:
+        first = 0
+        for i in range(1, count):
+            if memory.constraint_rows[i, SEARCH_DIRECTION] < memory.constraint_rows[first, SEARCH_DIRECTION]:
+                first = i
+        if count == 0 or memory.constraint_rows[first, SEARCH_DIRECTION] >= time_left:
+            break
+        turning_load += memory.constraint_rows[first, SEARCH_DIRECTION + 1]
+        if turning_load >= MAX_TURNING_SHARE * sliding_load:
+            min_time = memory.constraint_rows[first, SEARCH_DIRECTION]
+            break
+        memory.constraint_rows[first, SEARCH_DIRECTION] = math.inf
     # a lower bound keeps a slip that nearly stops from cutting the step to nothing
     return min(time_left, max(min_time, MIN_STEP_RATIO * memory.step_info[FULL_STEP]))
 
@@ -172,28 +198,33 @@ def _stopping_fraction(start_speed, end_speed):
     return start_speed / (start_speed - end_speed) if end_speed < 0.0 else 1.0
 
 
-@kernel(_t.float64(_t.int64, MEMORY), inline=True)
-def _first_stop(count, memory):
-    """Return the fraction of the step after which the first stopping point stops while all of them are braked."""
-    min_time = 1.0
+@kernel(_t.void(_t.int64, _t.int64, MEMORY), inline=True)
+def _find_first_stops(count, n, memory):
+    """Write the fraction of the step after which the first stopping point of each body stops while all of them are braked."""
+    first_stops = memory.newton_bodies
+    for i in range(n):
+        first_stops[i, GRADIENT] = 1.0
     for i in range(count):
-        row = memory.constraint_rows[i]
+        row, a, b = memory.constraint_rows[i], memory.contact_ids[i, 0], memory.contact_ids[i, 1]
         normal_impulse = row[IMPULSE] * row[NORMAL] + row[IMPULSE + 1] * row[NORMAL + 1] + row[IMPULSE + 2] * row[NORMAL + 2]
         if normal_impulse > 0.0 and row[SLIP_STATE] == SLIP_STOPS:
-            u0, u1, u2 = sliding_velocity(memory.contact_ids[i, 0], memory.contact_ids[i, 1], row, memory)
-            min_time = min(
-                min_time,
-                _stopping_fraction(row[SLIP_SPEED], u0 * row[SLIP_DIRECTION] + u1 * row[SLIP_DIRECTION + 1] + u2 * row[SLIP_DIRECTION + 2]),
+            u0, u1, u2 = sliding_velocity(a, b, row, memory)
+            end_speed = u0 * row[SLIP_DIRECTION] + u1 * row[SLIP_DIRECTION + 1] + u2 * row[SLIP_DIRECTION + 2]
+            fraction = _stopping_fraction(row[SLIP_SPEED], end_speed)
+            first_stops[a, GRADIENT], first_stops[b, GRADIENT] = (
+                min(first_stops[a, GRADIENT], fraction),
+                min(first_stops[b, GRADIENT], fraction),
             )
-    return min_time
+    # the ground transmits no change
+    first_stops[n, GRADIENT] = 1.0
 
 
-@kernel(_t.boolean(_t.int64, _t.boolean, MEMORY), inline=True)
-def _update_cones(count, has_impact, memory):
+@kernel(_t.boolean(_t.int64, _t.int64, _t.boolean, MEMORY), inline=True)
+def _update_cones(count, n, has_impact, memory):
     """Update slip states and friction cones from a trial solution; return whether another one is needed."""
     threshold, needs_retry = SLIP_THRESHOLD * memory.step_info[FREE_FALL_SPEED], False
-    # the first stops are decided with all later ones still braked
-    first_stop = _first_stop(count, memory)
+    # the first stops of each body are decided with all later ones still braked
+    _find_first_stops(count, n, memory)
     for i in range(count):
         row = memory.constraint_rows[i]
         p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
@@ -210,6 +241,9 @@ def _update_cones(count, has_impact, memory):
                 needs_retry = True
         elif row[SLIP_STATE] == SLIP_STOPS:
             fraction = _stopping_fraction(row[SLIP_SPEED], end_speed)
+            first_stop = min(
+                memory.newton_bodies[memory.contact_ids[i, 0], GRADIENT], memory.newton_bodies[memory.contact_ids[i, 1], GRADIENT]
+            )
             # stops later than the first ones, or not at all: braked as before, and tested again
             if fraction == 1.0 or fraction > first_stop + STOP_WINDOW:
                 row[SLIP_STATE] = SLIP_UNCHANGED if fraction > first_stop + STOP_WINDOW else SLIP_DECIDED
@@ -273,7 +307,7 @@ def solve_friction(count, n, has_impact, pile, memory):
     for attempt in range(MAX_TRIES):
         sweeps = solve_impulses(count, n, tolerance, pile, memory)
         # each try updates the cones at least of one point; MAX_TRIES bounds the cost
-        if sweeps == 0 or attempt == MAX_TRIES - 1 or not _update_cones(count, has_impact, memory):
+        if sweeps == 0 or attempt == MAX_TRIES - 1 or not _update_cones(count, n, has_impact, memory):
             break
     if _has_shifted_cone(count, memory):
         gains_energy = impulse_work(count, contact_ids, rows, n, pile.inertias, 0.0, velocities) > 0.0

@@ -1,11 +1,17 @@
 """Newton's method for the impulses of one step: an iteration costs about 1 us per stone of a tower.
 
-The laws are those of :mod:`seisblock.models.stack.pgs`. With the normal impulses in the friction limits held, the velocities after the
-step minimise a convex function: kinetic energy of the change, plus a quadratic penalty of each contact law about a centre impulse (the
-augmented Lagrangian). Its Newton steps are solved by a block Cholesky factorisation within the envelope of the contact graph (band of one
-block for a tower), and shortened by a line search, so that the active contacts cannot cycle. Friction limits follow from the last
-iterate; when they have settled, the centres move to the impulses, which removes the error of the penalty ([AlartCurnier1991]_). Of the
-distributions of a load over the points of a face the penalty selects one near that of the last step.
+The laws are those of :mod:`seisblock.models.stack.pgs`. First Newton's method is applied to the laws of all contacts and the balance of
+momentum at once ([AlartCurnier1991]_): each step decides from a trial impulse whether a contact is open, sticks or slides, and linearises
+that law, with the dependence of friction on the normal impulse and on the direction of the slip. Near the solution the number of steps
+hardly depends on that of the stones. A small compliance against the change of the impulses in a step selects, of the distributions of a
+load over the points of a face, one near that of the last step; it vanishes in the solution. The matrix is not symmetric: block factors L
+U within the envelope of the contact graph (band of one block for a tower).
+
+In a pile that collapses, the laws that act may change to and fro without end. Then the friction limits are held: the velocities after the
+step minimise a convex function, kinetic energy of the change plus a quadratic penalty of each contact law about a centre impulse (the
+augmented Lagrangian), by Newton steps with a block Cholesky factorisation, shortened by a line search, so that the active contacts cannot
+cycle. Friction limits follow from the last iterate; when they have settled, the centres move to the impulses, which removes the error of
+the penalty.
 """
 
 from __future__ import annotations
@@ -19,17 +25,25 @@ from seisblock.models.stack.constraint_row import (
     ARM_B,
     BILATERAL,
     CONE_CENTRE,
+    FORCE_SLOPE,
     IMPULSE,
+    LAW_CHANGE,
     MIN_NORMAL_VELOCITY,
     MU,
     NORMAL,
     PENALTY,
     PENALTY_CENTRE,
     PRESSURE,
+    PROJECTED,
     ROTATION_BIAS,
+    SLIDING_DIRECTION,
     SLIP_CHANGE,
+    SLIP_SLOPE,
+    START_IMPULSE,
+    START_VELOCITY,
     TRIAL_SLIP,
     W,
+    apply_impulse,
     apply_impulses,
     relative_velocity,
 )
@@ -56,10 +70,35 @@ MOVE_RATIO = 10.0
 SLOPE_RATIO, MAX_EXTENSION, MAX_TRIALS = 0.3, 16.0, 12
 """Line search: slope over the first one at which it ends, largest step, and number of trials."""
 
+MAX_LAW_ITERATIONS, TRIAL_FACTOR = 30, 10.0
+"""Newton steps on all laws at once after which the convex function is minimised; and impulse of the trial that decides which law acts, over
+velocity and Delassus block."""
+
+FIRST_PROXIMITY, MIN_PROXIMITY, PROXIMITY_FACTOR = 1e-2, 1e-4, 0.1
+"""Compliance against a change of the impulse in one step, over the Delassus block: at first, smallest, and ratio of successive ones."""
+
+IMPROVEMENT, CYCLE_ITERATIONS = 0.8, 3
+"""Ratio to the smallest error so far below which an error counts as smaller, and steps without one after which they are halved."""
+
 STEP, FREE_VELOCITY, GRADIENT, INERTIA, FIRST_NEIGHBOUR = 0, 6, 12, 18, 27
 WORK_COLUMNS = 28
 """A body's step of velocity and spin (6), velocity without impulses (6), gradient (6), inertia matrix in the ground's axes (9), and the
 first body of its row in the factor."""
+
+
+@kernel(_t.void(VECTOR, _t.int64, _t.int64, _t.int64), inline=True)
+def _copy(row, source, target, count):
+    for k in range(count):
+        row[target + k] = row[source + k]
+
+
+@kernel(_t.void(_t.int64, _t.int64, MATRIX, MATRIX, _t.boolean), inline=True)
+def save_state(n, bodies, rows, velocities, restore):
+    """Store velocities and impulses before a solution, or restore them."""
+    for i in range(bodies):
+        _copy(velocities[i], START_VELOCITY if restore else 0, 0 if restore else START_VELOCITY, 6)
+    for i in range(n):
+        _copy(rows[i], START_IMPULSE if restore else IMPULSE, IMPULSE if restore else START_IMPULSE, 3)
 
 
 @kernel(_t.UniTuple(_t.float64, 5)(VECTOR, _t.float64, _t.float64, _t.float64, _t.boolean), inline=True)
@@ -479,6 +518,311 @@ def _step_length(n, contact_ids, rows, ground, inertias, velocities, work):
     return length
 
 
+@kernel(_t.float64(VECTOR, _t.float64, _t.float64, _t.float64, _t.float64))
+def _linearise(row, proximity, u0, u1, u2):
+    """Write the projected impulse and the linearised law of a contact with a relative velocity; return the error of the law, m/s.
+
+    A change dP of the impulse follows from the change du of the velocity, dP = R - (F n + s (1 - n n - d d)) du, where F is
+    :data:`FORCE_SLOPE`, s :data:`SLIP_SLOPE`, R :data:`LAW_CHANGE`, and d the direction of the slip (derived here).
+    The error is the velocity where the contact presses or sticks, or the approach of an open one.
+    """
+    n0, n1, n2, p0, p1, p2 = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
+    for k in range(3):
+        row[FORCE_SLOPE + k] = 0.0
+        row[SLIDING_DIRECTION + k] = 0.0
+        row[PROJECTED + k] = 0.0
+    row[SLIP_SLOPE] = 0.0
+    row[LAW_CHANGE], row[LAW_CHANGE + 1], row[LAW_CHANGE + 2] = -p0, -p1, -p2
+    bound, response = row[MIN_NORMAL_VELOCITY], (row[W] + row[W + 4] + row[W + 8]) / 3.0
+    # a contact without a bound does not act in this step
+    if bound == -math.inf:
+        return 0.0
+    u0, u1, u2 = u0 - bound * n0, u1 - bound * n1, u2 - bound * n2
+    # the trial impulse decides which law acts: any positive factor has the same solution
+    k, stiffness = TRIAL_FACTOR / response, 1.0 / (proximity * response)
+    y0, y1, y2, speed, old_normal = p0 - k * u0, p1 - k * u1, p2 - k * u2, u0 * n0 + u1 * n1 + u2 * n2, p0 * n0 + p1 * n1 + p2 * n2
+    normal, new_normal = old_normal - k * speed, old_normal - stiffness * speed
+    if row[BILATERAL] > 0.0:
+        for m in range(3):
+            row[PROJECTED + m] = normal * row[NORMAL + m]
+            row[FORCE_SLOPE + m] = stiffness * row[NORMAL + m]
+            row[LAW_CHANGE + m] += new_normal * row[NORMAL + m]
+        return abs(speed)
+    if normal <= 0.0:
+        return -speed
+    s0, s1, s2 = n0 + row[CONE_CENTRE], n1 + row[CONE_CENTRE + 1], n2 + row[CONE_CENTRE + 2]
+    y0, y1, y2, slip0, slip1, slip2 = (
+        y0 - normal * s0,
+        y1 - normal * s1,
+        y2 - normal * s2,
+        u0 - speed * n0,
+        u1 - speed * n1,
+        u2 - speed * n2,
+    )
+    size, limit = math.sqrt(y0 * y0 + y1 * y1 + y2 * y2), row[MU] * normal
+    if size < limit:
+        row[PROJECTED], row[PROJECTED + 1], row[PROJECTED + 2] = y0 + normal * s0, y1 + normal * s1, y2 + normal * s2
+        row[LAW_CHANGE], row[LAW_CHANGE + 1], row[LAW_CHANGE + 2] = -stiffness * u0, -stiffness * u1, -stiffness * u2
+        row[SLIP_SLOPE] = stiffness
+        for m in range(3):
+            row[FORCE_SLOPE + m] = stiffness * row[NORMAL + m]
+        return max(abs(speed), math.sqrt(slip0 * slip0 + slip1 * slip1 + slip2 * slip2))
+    if size > 0.0:
+        y0, y1, y2 = y0 / size, y1 / size, y2 / size
+    # friction turns with the slip, the more the slower that is: limit k / (size - limit) is the friction over the slip in the solution
+    slope = 0.0 if limit == 0.0 else min(limit * k, stiffness * (size - limit)) / (size - limit) if size > limit else stiffness
+    f0, f1, f2 = s0 + row[MU] * y0, s1 + row[MU] * y1, s2 + row[MU] * y2
+    # across a slip that hardly exists, the friction changes from its last value, as where the point sticks
+    kept = 1.0 if slope == stiffness else 0.0
+    t0, t1, t2 = (
+        kept * (p0 - old_normal * s0) - slope * slip0,
+        kept * (p1 - old_normal * s1) - slope * slip1,
+        kept * (p2 - old_normal * s2) - slope * slip2,
+    )
+    along = t0 * y0 + t1 * y1 + t2 * y2
+    row[PROJECTED], row[PROJECTED + 1], row[PROJECTED + 2] = normal * f0, normal * f1, normal * f2
+    row[FORCE_SLOPE], row[FORCE_SLOPE + 1], row[FORCE_SLOPE + 2] = stiffness * f0, stiffness * f1, stiffness * f2
+    row[SLIDING_DIRECTION], row[SLIDING_DIRECTION + 1], row[SLIDING_DIRECTION + 2] = y0, y1, y2
+    row[SLIP_SLOPE] = slope
+    row[LAW_CHANGE] += new_normal * f0 + t0 - along * y0
+    row[LAW_CHANGE + 1] += new_normal * f1 + t1 - along * y1
+    row[LAW_CHANGE + 2] += new_normal * f2 + t2 - along * y2
+    return abs(speed)
+
+
+@kernel(_t.UniTuple(_t.float64, 3)(VECTOR, _t.float64, _t.float64, _t.float64), inline=True)
+def _law_slope(row, u0, u1, u2):
+    """Return the change of a contact's impulse, with the opposite sign, by a change of the relative velocity."""
+    s, normal = row[SLIP_SLOPE], u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
+    along = u0 * row[SLIDING_DIRECTION] + u1 * row[SLIDING_DIRECTION + 1] + u2 * row[SLIDING_DIRECTION + 2]
+    return (
+        row[FORCE_SLOPE] * normal + s * (u0 - normal * row[NORMAL] - along * row[SLIDING_DIRECTION]),
+        row[FORCE_SLOPE + 1] * normal + s * (u1 - normal * row[NORMAL + 1] - along * row[SLIDING_DIRECTION + 1]),
+        row[FORCE_SLOPE + 2] * normal + s * (u2 - normal * row[NORMAL + 2] - along * row[SLIDING_DIRECTION + 2]),
+    )
+
+
+@kernel(_t.void(VECTOR, _t.int64, VECTOR), inline=True)
+def _add_law(row, arm, joint):
+    """Add G^T A G to the block of a joint, for the velocity G = [1, -r x] of a point of one body and the slope A of its law."""
+    x, y, z = row[arm], row[arm + 1], row[arm + 2]
+    for j in range(6):
+        # column j of G
+        g0, g1, g2 = (
+            1.0 if j == 0 else z if j == 4 else -y if j == 5 else 0.0,
+            1.0 if j == 1 else -z if j == 3 else x if j == 5 else 0.0,
+            1.0 if j == 2 else y if j == 3 else -x if j == 4 else 0.0,
+        )
+        a0, a1, a2 = _law_slope(row, g0, g1, g2)
+        joint[j] += a0
+        joint[6 + j] += a1
+        joint[12 + j] += a2
+        joint[18 + j] += y * a2 - z * a1
+        joint[24 + j] += z * a0 - x * a2
+        joint[30 + j] += x * a1 - y * a0
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.int64, VECTOR, VECTOR, BLOCK))
+def _add_joint_laws(a, b, ground, row, joint, blocks):
+    """Add the block K of the contacts of two bodies to the matrix, and clear it; K belongs to the second body, to the first on the ground.
+
+    The arms of both bodies differ by the distance d of their centres, so that [1, -r_a x] = [1, -r_b x] T with T = [1, -d x; 0, 1].
+    """
+    awake = a if b == ground else b
+    for k in range(36):
+        blocks[awake, awake, k] += joint[k]
+    if a != ground and b != ground:
+        x, y, z = row[ARM_A] - row[ARM_B], row[ARM_A + 1] - row[ARM_B + 1], row[ARM_A + 2] - row[ARM_B + 2]
+        low, high = min(a, b), max(a, b)
+        # blocks below the diagonal are stored transposed; T^T K is the block of row a and column b
+        for j in range(6):
+            k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
+            for i in range(6):
+                k = joint[6 * i + j] + (y * k2 - z * k1 if i == 3 else z * k0 - x * k2 if i == 4 else x * k1 - y * k0 if i == 5 else 0.0)
+                if a == low:
+                    blocks[low, high, 6 * i + j] -= k
+                else:
+                    blocks[high, low, 6 * j + i] -= k
+        # K T is that of row b and column a
+        for i in range(6):
+            k0, k1, k2 = joint[6 * i], joint[6 * i + 1], joint[6 * i + 2]
+            joint[6 * i + 3] += k2 * y - k1 * z
+            joint[6 * i + 4] += k0 * z - k2 * x
+            joint[6 * i + 5] += k1 * x - k0 * y
+            for j in range(6):
+                if b == low:
+                    blocks[low, high, 6 * i + j] -= joint[6 * i + j]
+                else:
+                    blocks[high, low, 6 * j + i] -= joint[6 * i + j]
+        # T^T (K T)
+        for j in range(6):
+            k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
+            joint[18 + j] += y * k2 - z * k1
+            joint[24 + j] += z * k0 - x * k2
+            joint[30 + j] += x * k1 - y * k0
+        for k in range(36):
+            blocks[a, a, k] += joint[k]
+    for k in range(36):
+        joint[k] = 0.0
+
+
+@kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, BLOCK, MATRIX))
+def _assemble_laws(n, contact_ids, rows, ground, inertias, blocks, work):
+    """Write matrix and right-hand side of the equations of momentum with the linearised laws."""
+    for i in range(ground):
+        for k in range(6):
+            work[i, GRADIENT + k] = 0.0
+        for j in range(int(work[i, FIRST_NEIGHBOUR]), i + 1):
+            for k in range(36):
+                blocks[j, i, k] = 0.0
+                blocks[i, j, k] = 0.0
+        for k in range(3):
+            blocks[i, i, 7 * k] = inertias[i, 0]
+            for m in range(3):
+                blocks[i, i, 6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
+    # the block of the ground is not needed: it collects the contacts of two bodies
+    joint, first = blocks[ground, ground], 0
+    for k in range(36):
+        joint[k] = 0.0
+    for i in range(n):
+        row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
+        if a != contact_ids[first, 0] or b != contact_ids[first, 1]:
+            _add_joint_laws(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
+            first = i
+        _subtract_impulse(a, b, ground, row, row[LAW_CHANGE], row[LAW_CHANGE + 1], row[LAW_CHANGE + 2], work)
+        if row[FORCE_SLOPE] != 0.0 or row[FORCE_SLOPE + 1] != 0.0 or row[FORCE_SLOPE + 2] != 0.0:
+            _add_law(row, ARM_A if b == ground else ARM_B, joint)
+    _add_joint_laws(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
+
+
+@kernel(_t.boolean(_t.int64, BLOCK, MATRIX))
+def _factorise_laws(bodies, blocks, work):
+    """Replace the matrix by its factors L U within its envelope, L with a unit diagonal; return whether they exist.
+
+    Blocks below the diagonal are stored transposed, and the diagonal of U is inverted.
+    """
+    for i in range(bodies):
+        first = int(work[i, FIRST_NEIGHBOUR])
+        for k in range(first, i):
+            upper, lower, diagonal = blocks[k, i], blocks[i, k], blocks[k, k]
+            # blocks before either envelope are zero
+            for m in range(max(first, int(work[k, FIRST_NEIGHBOUR])), k):
+                _subtract_product(blocks[k, m], blocks[m, i], upper)
+                _subtract_product(blocks[m, k], blocks[i, m], lower)
+            for r in range(6):
+                for q in range(r):
+                    x, y = diagonal[6 * r + q], diagonal[6 * q + r]
+                    for j in range(6):
+                        upper[6 * r + j] -= x * upper[6 * q + j]
+                        lower[6 * r + j] -= y * lower[6 * q + j]
+                for j in range(6):
+                    lower[6 * r + j] *= diagonal[7 * r]
+            _subtract_product(lower, upper, blocks[i, i])
+        block = blocks[i, i]
+        for r in range(6):
+            # strong friction may leave negative pivots; zero, or NaN after an overflow, has no inverse
+            if not abs(block[7 * r]) > 0.0:
+                return False
+            block[7 * r] = 1.0 / block[7 * r]
+            for q in range(r + 1, 6):
+                block[6 * q + r] *= block[7 * r]
+                for j in range(r + 1, 6):
+                    block[6 * q + j] -= block[6 * q + r] * block[6 * r + j]
+    return True
+
+
+@kernel(_t.void(_t.int64, BLOCK, MATRIX))
+def _law_step(bodies, blocks, work):
+    """Solve for the step against the gradient by forward and back substitution."""
+    for i in range(bodies):
+        x, block = work[i], blocks[i, i]
+        for k in range(6):
+            x[STEP + k] = -x[GRADIENT + k]
+        for k in range(int(x[FIRST_NEIGHBOUR]), i):
+            lower, y = blocks[i, k], work[k]
+            for r in range(6):
+                for j in range(6):
+                    x[STEP + j] -= lower[6 * r + j] * y[STEP + r]
+        for r in range(6):
+            for j in range(r):
+                x[STEP + r] -= block[6 * r + j] * x[STEP + j]
+    for i in range(bodies - 1, -1, -1):
+        x, block = work[i], blocks[i, i]
+        for r in range(5, -1, -1):
+            for j in range(r + 1, 6):
+                x[STEP + r] -= block[6 * r + j] * x[STEP + j]
+            x[STEP + r] *= block[7 * r]
+        for k in range(int(x[FIRST_NEIGHBOUR]), i):
+            upper, y = blocks[k, i], work[k]
+            for r in range(6):
+                for j in range(6):
+                    y[STEP + r] -= upper[6 * r + j] * x[STEP + j]
+
+
+@kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX, BLOCK, MATRIX))
+def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, blocks, work):
+    """Solve the contact laws by Newton's method on all of them at once; return the number of steps, or 0 without a solution."""
+    proximity, max_change, best, since_best = FIRST_PROXIMITY, math.inf, math.inf, 0
+    for iteration in range(MAX_LAW_ITERATIONS):
+        law_error, change = 0.0, 0.0
+        for i in range(ground):
+            for k in range(6):
+                work[i, STEP + k] = 0.0
+        for i in range(n):
+            row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
+            u0, u1, u2 = relative_velocity(a, b, row, velocities)
+            law_error = max(
+                law_error, _linearise(row, proximity, u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2])
+            )
+            p0, p1, p2 = row[PROJECTED] - row[IMPULSE], row[PROJECTED + 1] - row[IMPULSE + 1], row[PROJECTED + 2] - row[IMPULSE + 2]
+            apply_impulse(a, b, ground, inertias, row, p0, p1, p2, work)
+        for i in range(n):
+            u0, u1, u2 = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], rows[i], work)
+            change = max(change, max(abs(u0), max(abs(u1), abs(u2))))
+        if max(change, law_error) < ACCURACY * tolerance:
+            # impulses that obey the cones exactly, with the velocities that belong to them
+            for i in range(ground):
+                for k in range(6):
+                    velocities[i, k] += work[i, STEP + k]
+            for i in range(n):
+                for k in range(3):
+                    rows[i, IMPULSE + k] = rows[i, PROJECTED + k]
+            return iteration + 1
+        if iteration == 0:
+            max_change = MAX_GROWTH * max(change, tolerance)
+        # growing errors, or NaN
+        if not change < max_change:
+            return 0
+        since_best += 1
+        if max(change, law_error) < IMPROVEMENT * best:
+            best, since_best = max(change, law_error), 0
+        # the laws that act change to and fro between two steps: half steps end the cycle
+        length = 1.0 if since_best < CYCLE_ITERATIONS else 0.5
+        # the laws that act have settled: what is left is the velocity that the proximity leaves
+        if law_error > ACCURACY * tolerance and change < MOVE_RATIO * law_error and proximity > MIN_PROXIMITY:
+            proximity *= PROXIMITY_FACTOR
+            for i in range(n):
+                row = rows[i]
+                u0, u1, u2 = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], row, velocities)
+                _linearise(row, proximity, u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2])
+        _assemble_laws(n, contact_ids, rows, ground, inertias, blocks, work)
+        if not _factorise_laws(ground, blocks, work):
+            return 0
+        _law_step(ground, blocks, work)
+        for i in range(n):
+            row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
+            u0, u1, u2 = relative_velocity(a, b, row, work)
+            u0, u1, u2 = _law_slope(row, u0, u1, u2)
+            row[LAW_CHANGE] -= u0
+            row[LAW_CHANGE + 1] -= u1
+            row[LAW_CHANGE + 2] -= u2
+            for k in range(3):
+                row[LAW_CHANGE + k] *= length
+                row[IMPULSE + k] += row[LAW_CHANGE + k]
+            apply_impulse(a, b, ground, inertias, row, row[LAW_CHANGE], row[LAW_CHANGE + 1], row[LAW_CHANGE + 2], velocities)
+    return 0
+
+
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, _t.float64, MATRIX, BLOCK, MATRIX))
 def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, velocities, blocks, work):
     """Solve the impulses of `n` contacts; return the number of Newton steps, or 0 without a solution.
@@ -491,6 +835,12 @@ def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, ve
     blocks, work : (m + 1, m + 1, 36), (m + 1, 28) arrays
         Scratch: blocks of the Hessian, and rows of the bodies.
     """
+    save_state(n, ground, rows, velocities, False)
+    _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work)
+    iterations = _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, blocks, work)
+    if iterations > 0:
+        return iterations
+    save_state(n, ground, rows, velocities, True)
     _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work)
     compliance, since_move, has_stalled, max_change = FIRST_COMPLIANCE, 0, False, math.inf
     for iteration in range(MAX_ITERATIONS):

@@ -33,15 +33,13 @@ from seisblock.models.stack.constraint_row import (
     NORMAL,
     ROTATION_BIAS,
     SEARCH_DIRECTION,
-    START_IMPULSE,
-    START_VELOCITY,
     WI,
     W,
     apply_impulse,
     apply_impulses,
     relative_velocity,
 )
-from seisblock.models.stack.newton import solve_newton
+from seisblock.models.stack.newton import save_state, solve_newton
 
 _t = types()
 
@@ -183,21 +181,6 @@ def _relax_contact(a, b, ground, inertias, row, minimise_energy, velocities):
     return (abs(q0) + abs(q1) + abs(q2)) * max(row[W], max(row[W + 4], row[W + 8]))
 
 
-@kernel(_t.void(VECTOR, _t.int64, _t.int64, _t.int64), inline=True)
-def _copy(row, source, target, count):
-    for k in range(count):
-        row[target + k] = row[source + k]
-
-
-@kernel(_t.void(_t.int64, _t.int64, MATRIX, MATRIX, _t.boolean), inline=True)
-def _save_state(n, bodies, rows, velocities, restore):
-    """Store velocities and impulses before the sweeps, or restore them."""
-    for i in range(bodies):
-        _copy(velocities[i], START_VELOCITY if restore else 0, 0 if restore else START_VELOCITY, 6)
-    for i in range(n):
-        _copy(rows[i], START_IMPULSE if restore else IMPULSE, IMPULSE if restore else START_IMPULSE, 3)
-
-
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, _t.float64, MATRIX))
 def solve_pgs(n, contact_ids, rows, ground, inertias, target, tolerance, velocities):
     """Solve the impulses of `n` contacts by projected Gauss-Seidel sweeps; return their number, or 0 and the initial state if they fail.
@@ -206,7 +189,7 @@ def solve_pgs(n, contact_ids, rows, ground, inertias, target, tolerance, velocit
     ----------
     contact_ids : (k, 2) array of int
         The bodies of each contact.
-    rows : (k, 97) array
+    rows : (k, 99) array
         Constraint rows, with the initial impulses (warm start).
     target, tolerance : float, m/s
         Velocity change of a sweep at which the first :data:`FINE_SWEEPS` sweeps end, and the later ones.
@@ -214,7 +197,7 @@ def solve_pgs(n, contact_ids, rows, ground, inertias, target, tolerance, velocit
         Velocities and spins with the initial impulses; on return, with the solution.
     """
     last_size, max_change, divergence_limit = 0.0, 0.0, math.inf
-    _save_state(n, ground, rows, velocities, False)
+    save_state(n, ground, rows, velocities, False)
     for sweep in range(MAX_SWEEPS):
         max_change = 0.0
         for i in range(n):
@@ -257,7 +240,7 @@ def solve_pgs(n, contact_ids, rows, ground, inertias, target, tolerance, velocit
     # nearly converged: used, and counted as unconverged by the run
     if max_change < UNCONVERGED_RATIO * tolerance:
         return MAX_SWEEPS
-    _save_state(n, ground, rows, velocities, True)
+    save_state(n, ground, rows, velocities, True)
     return 0
 
 
@@ -325,13 +308,12 @@ def solve_impulses(count, n, tolerance, pile, memory):
     """Solve the impulses of `count` contacts by Newton's method, or by sweeps; return the number of iterations, 0 without a solution."""
     contact_ids, rows, inertias, velocities = memory.contact_ids, memory.constraint_rows, pile.inertias, memory.body_velocities
     if count > MIN_NEWTON_CONTACTS:
-        _save_state(count, n, rows, velocities, False)
         iterations = solve_newton(
             count, contact_ids, rows, n, inertias, memory.inverses, tolerance, velocities, memory.newton_blocks, memory.newton_bodies
         )
         if iterations > 0:
             return iterations
-        _save_state(count, n, rows, velocities, True)
+        save_state(count, n, rows, velocities, True)
         return solve_pgs(count, contact_ids, rows, n, inertias, tolerance, tolerance, velocities)
     # the order of the contacts decides what is left of the error: a finer tolerance keeps mirrored and turned stones alike
     return solve_pgs(count, contact_ids, rows, n, inertias, FINE_RATIO * tolerance, tolerance, velocities)
