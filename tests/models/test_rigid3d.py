@@ -172,6 +172,14 @@ def test_solve_rigid3d_creates_no_energy_in_fast_spin_and_violent_shaking():
         assert outcome.created_j <= 1e-9 * body.mass * GRAVITY * size
 
 
+def test_solve_rigid3d_counts_the_energy_of_an_impact_at_the_start():
+    """A box that is thrown flat on the ground on which it stands loses m v^2 / 2."""
+    body = ConvexBody.box(0.4, 0.3, 0.8)
+    outcome = solve_rigid3d(body, still(0.1), mu=0.5, initial={"velocity": (0.0, 0.0, -1.0)}, settle_s=0.0).outcome
+    assert outcome.energy_contacts_j == pytest.approx(0.5 * body.mass, rel=1e-9)
+    assert outcome.created_j <= 1e-9 * body.mass
+
+
 @pytest.mark.parametrize("width", [0.001, 0.003])
 def test_solve_rigid3d_creates_no_energy_with_a_needle(width):
     """The moment about the axis is 1e-6 of the others: 2e-8 and 5e-10 where the matrix R J R' gave the angular momentum."""

@@ -35,6 +35,16 @@ def test_jma_header_of_2000_is_read_in_any_encoding(tmp_path, encoding):
     assert "carries_offset" not in record.metadata
 
 
+def test_jma_header_with_zeros_has_no_epicentre(tmp_path):
+    """An event that was not located is written as zeros; a depth of 0 beside an epicentre is a depth."""
+    located = "35.2733,133.3483,  9,7.3"
+    assert located in JMA_HEADER
+    record = read(write(tmp_path, JMA_HEADER.replace(located, "0.0000,0.0000,  0,0.0") + JMA_BODY))
+    assert not {"event_latitude_deg", "event_depth_km", "magnitude"} & record.metadata.keys()
+    shallow = read(write(tmp_path, JMA_HEADER.replace(located, "35.2733,133.3483,  0,7.3") + JMA_BODY))
+    assert shallow.metadata["event_depth_km"] == 0.0
+
+
 def test_gal_convert_to_m_s2_exactly(tmp_path):
     """306.21 gal is the double nearest to 3.0621 m/s^2, as if written in m/s^2."""
     record = read(write(tmp_path, JMA_HEADER + JMA_BODY))

@@ -61,6 +61,15 @@ def test_contradicting_pairs_are_named():
     assert contradictions(agreeing) == []
 
 
+def test_one_sided_intervals_end_at_the_scale():
+    """The intensity lies between 0 and a bound if no stone fell, between a bound and 7.5 if all did."""
+    places = [SurveyedPlace("stands", 35.01, 139.0, 100, 0), SurveyedPlace("fell", 35.0, 139.0, 100, 100)]
+    answers = compare_surveys(places, Stations((), None), AOYAMA)
+    assert [None in answer.estimate.jma_intensity_interval for answer in answers] == [True, True]
+    (text,) = contradictions(answers)
+    assert "JMA intensity 0.0 to 5.6 and 6.5 to 7.5" in text
+
+
 def test_survey_list_accepts_both_languages(tmp_path):
     """Names of columns, their order, other columns and Shift-JIS are as people write them."""
     path = tmp_path / "調査.csv"
