@@ -121,7 +121,7 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
     type=Count(N_("samples"), MAX_RUNS),
     default=16,
     show_default=True,
-    help="Samples of each block under each record: 1, 2, 4, 8, 16, 32 or 64.",
+    help="Samples of each block under each record, fewer where blocks agree: 1, 2, 4, 8, 16, 32 or 64.",
 )
 @option("--seed", type=int, default=0, show_default=True, help="Seed of the random numbers.")
 @gravity_option
