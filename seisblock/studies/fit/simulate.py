@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from contextlib import closing
+from typing import Any
 
 import numpy as np
 
@@ -52,31 +53,30 @@ def outcome_shares(
     progress : callable
         Called with the number of finished samples and their total.
     """
-
-    def work(k: int) -> IntArray:
-        shaking, run_count = experiment.shakings[k], int(runs[k])
-        offsets = np.random.default_rng((*seed, k)).random((len(unit_points), 1, PERTURBATION_COUNT))
-        shifts = 2.0 * ((offsets + quasi_random_points(run_count, PERTURBATION_COUNT)) % 1.0) - 1.0
-        event_counts = np.zeros(len(unit_points), dtype=np.int64)
-        size = max(1, CHUNK_SIZE // (shaking.motion.samples * run_count))
-        for first in range(0, len(unit_points), size):
-            part = slice(first, first + size)
-            # blocks times samples in one batch; a share is the mean over the samples
-            params, gains = family.versions(
-                np.repeat(unit_points[part], run_count, axis=0), shifts[part].reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
-            )
-            verdicts = rock_verdicts(params, shaking.motion, gains, min_hop=MIN_HOP).require_complete()
-            events = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
-            event_counts[part] = events.reshape(-1, run_count).sum(axis=1)
-        return event_counts * (SHARE_DENOMINATOR // run_count)
-
     rows = np.arange(len(experiment.shakings)) if rows is None else rows
-    finished = len(unit_points) * np.cumsum(runs[rows])
-    results: Generator[IntArray, None, None] = map_threads(work, rows.tolist())
-    shares = []
+    sizes = {k: max(1, CHUNK_SIZE // (experiment.shakings[k].motion.samples * int(runs[k]))) for k in rows.tolist()}
+    chunks = [(i, k, slice(first, first + sizes[k])) for i, k in enumerate(sizes) for first in range(0, len(unit_points), sizes[k])]
+
+    def work(chunk: tuple[int, int, slice]) -> IntArray:
+        _, k, part = chunk
+        shaking, run_count = experiment.shakings[k], int(runs[k])
+        offsets = np.random.default_rng((*seed, k)).random((len(unit_points), 1, PERTURBATION_COUNT))[part]
+        shifts = 2.0 * ((offsets + quasi_random_points(run_count, PERTURBATION_COUNT)) % 1.0) - 1.0
+        # blocks times samples in one batch; a share is the mean over the samples
+        params, gains = family.versions(
+            np.repeat(unit_points[part], run_count, axis=0), shifts.reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
+        )
+        verdicts = rock_verdicts(params, shaking.motion, gains, min_hop=MIN_HOP).require_complete()
+        events = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
+        return events.reshape(-1, run_count).sum(axis=1) * (SHARE_DENOMINATOR // run_count)
+
+    shares: Any = np.zeros((len(rows), len(unit_points)), dtype=np.uint8)
+    finished, total = 0, len(unit_points) * int(runs[rows].sum())
+    results: Generator[IntArray, None, None] = map_threads(work, chunks)
     with closing(results):
-        for count, share in zip(finished, results, strict=True):
-            shares.append(share.astype(np.uint8))
+        for (i, k, part), share in zip(chunks, results, strict=True):
+            shares[i, part] = share
+            finished += len(share) * int(runs[k])
             if progress is not None:
-                progress(int(count), int(finished[-1]))
-    return np.array(shares)
+                progress(finished, total)
+    return shares
