@@ -126,8 +126,10 @@ def test_uplift_beyond_model_has_null_and_flag(run):
 
 
 def test_uplift_of_weak_record_states_factor(run, record):
-    """Without uplift the answer states the scale factor to uplift."""
+    """Without uplift the answer states the scale factor to uplift, and no height of a corner that stays pressed."""
     result = run(record, "--component", "EW", *BODY, "--scale", 0.05)
+    (heights,) = [line.partition(")")[2].split() for line in result.stdout.splitlines() if "maximum uplift" in line]
+    assert heights == ["-"] * 4
     assert "no uplift; scale factor to uplift" in " ".join(result.stdout.split())
 
 

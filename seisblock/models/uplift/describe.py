@@ -59,9 +59,11 @@ def _rows(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[list[str]
         return
     yield [gettext("uplift duration (s)"), *(format_seconds(c.uplift_duration_s) for c in corners)]
     yield [gettext("longest uplift (s)"), *(format_seconds(c.longest_uplift_s) for c in corners)]
-    unit = length_unit((c.max_uplift_m for c in corners), gal=gal)
-    yield [gettext("maximum uplift ({unit})", unit=unit.name), *(length_cell(c.max_uplift_m, unit) for c in corners)]
-    yield [gettext("  at (s)"), *(format_seconds(c.max_uplift_time_s) for c in corners)]
+    # of a corner that stays pressed the largest height is negative
+    heights = [None if c.first_uplift_s is None else c.max_uplift_m for c in corners]
+    unit = length_unit(heights, gal=gal)
+    yield [gettext("maximum uplift ({unit})", unit=unit.name), *(length_cell(height, unit) for height in heights)]
+    yield [gettext("  at (s)"), *(format_seconds(None if c.first_uplift_s is None else c.max_uplift_time_s) for c in corners)]
     yield [gettext("maximum contact force (kN)"), *(f"{c.max_contact_force_n / 1e3:.3f}" for c in corners)]
     yield [gettext("  over static force"), *(f"{c.max_contact_force_n / static:.2f}" for c in corners)]
 
