@@ -12,6 +12,7 @@ from seisblock.models.jump.chain import JumpPhase
 from seisblock.models.jump.interpolate import POINTS_PER_PHASE, interpolate_phases
 from seisblock.output.figures.curves import MAX_POINTS, decimate
 from seisblock.output.figures.solver import response_figure
+from seisblock.output.figures.style import new_figure
 from seisblock.records import Motion, Preparation, motion_of
 from seisblock.records.process import crop
 from seisblock.report.figures.measure import measure_figure
@@ -183,6 +184,15 @@ def test_title_lists_processing_steps():
     figure.set_title("a long name " * 40)
     figure.canvas.draw()
     assert figure.heading.get_text().endswith("…")
+
+
+def test_long_sentence_as_title_is_broken_between_words():
+    """A title of one sentence loses nothing where two lines hold it."""
+    text = "a tall wooden cabinet with glass doors, JMA intensity 6 upper: overturning probability 0 %, target 5 %: no measure required"
+    figure, _ = new_figure(1, width=5.0, height=2.0, title=text)
+    figure.draw_without_rendering()
+    assert figure.heading.get_text().split("\n") != [text]
+    assert " ".join(figure.heading.get_text().split()) == text
     assert figure.heading.get_window_extent().x1 <= figure.bbox.width
 
 

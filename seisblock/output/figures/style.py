@@ -165,7 +165,8 @@ class StyledFigure(Figure):
             size = float(title.get_fontsize())
             title.set_fontsize(max(size * available / extent, MIN_TITLE_SIZE))
             if title.get_window_extent(renderer).width > available:
-                title.set_text(split_in_two(title.get_text(), SEPARATOR))
+                text = title.get_text()
+                title.set_text(split_in_two(text, next((mark for mark in (SEPARATOR, "、") if mark in text), " ")))
             while title.get_window_extent(renderer).width > available and len(title.get_text()) > 2:
                 title.set_text(title.get_text()[:-2] + "…")
 
