@@ -277,6 +277,27 @@ def _add_stiffness(row, arm, a00, a01, a02, a11, a12, a22, joint):
     joint[35] += x * b12 - y * b02
 
 
+@kernel(_t.void(_t.float64, _t.float64, _t.float64, VECTOR, VECTOR), inline=True)
+def _add_shifted_rows(x, y, z, joint, block):
+    """Add T^T M to the block of a body, for the block M = K T of a joint, in place, and the distance (x, y, z) of T."""
+    for j in range(6):
+        k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
+        joint[18 + j] += y * k2 - z * k1
+        joint[24 + j] += z * k0 - x * k2
+        joint[30 + j] += x * k1 - y * k0
+    for k in range(36):
+        block[k] += joint[k]
+
+
+@kernel(_t.void(_t.int64, MATRIX, MATRIX, VECTOR), inline=True)
+def _write_inertia(i, inertias, work, block):
+    """Write mass and inertia of body `i` to its block, which is zero elsewhere."""
+    for k in range(3):
+        block[7 * k] = inertias[i, 0]
+        for m in range(3):
+            block[6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
+
+
 @kernel(_t.void(_t.int64, _t.int64, _t.int64, VECTOR, VECTOR, BLOCK))
 def _add_joint(a, b, ground, row, joint, blocks):
     """Add the block K of the contacts of two bodies to the Hessian, and clear it; K belongs to the second body, to the first on the ground.
@@ -304,14 +325,7 @@ def _add_joint(a, b, ground, row, joint, blocks):
                     blocks[b, a, 6 * i + j] -= joint[6 * i + j]
                 else:
                     blocks[a, b, 6 * j + i] -= joint[6 * i + j]
-        # T^T (K T)
-        for j in range(6):
-            k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
-            joint[18 + j] += y * k2 - z * k1
-            joint[24 + j] += z * k0 - x * k2
-            joint[30 + j] += x * k1 - y * k0
-        for k in range(36):
-            blocks[a, a, k] += joint[k]
+        _add_shifted_rows(x, y, z, joint, blocks[a, a])
     for k in range(36):
         joint[k] = 0.0
 
@@ -324,10 +338,7 @@ def _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work):
         for j in range(int(work[i, FIRST_NEIGHBOUR]), i + 1):
             for k in range(36):
                 blocks[j, i, k] = 0.0
-        for k in range(3):
-            blocks[i, i, 7 * k] = inertias[i, 0]
-            for m in range(3):
-                blocks[i, i, 6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
+        _write_inertia(i, inertias, work, blocks[i, i])
     # the block of the ground is not needed: it collects the contacts of two bodies
     joint, first = blocks[ground, ground], 0
     for k in range(36):
@@ -654,14 +665,7 @@ def _add_joint_laws(a, b, ground, row, joint, blocks):
                     blocks[low, high, 6 * i + j] -= joint[6 * i + j]
                 else:
                     blocks[high, low, 6 * j + i] -= joint[6 * i + j]
-        # T^T (K T)
-        for j in range(6):
-            k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
-            joint[18 + j] += y * k2 - z * k1
-            joint[24 + j] += z * k0 - x * k2
-            joint[30 + j] += x * k1 - y * k0
-        for k in range(36):
-            blocks[a, a, k] += joint[k]
+        _add_shifted_rows(x, y, z, joint, blocks[a, a])
     for k in range(36):
         joint[k] = 0.0
 
@@ -676,10 +680,7 @@ def _assemble_laws(n, contact_ids, rows, ground, inertias, blocks, work):
             for k in range(36):
                 blocks[j, i, k] = 0.0
                 blocks[i, j, k] = 0.0
-        for k in range(3):
-            blocks[i, i, 7 * k] = inertias[i, 0]
-            for m in range(3):
-                blocks[i, i, 6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
+        _write_inertia(i, inertias, work, blocks[i, i])
     # the block of the ground is not needed: it collects the contacts of two bodies
     joint, first = blocks[ground, ground], 0
     for k in range(36):
