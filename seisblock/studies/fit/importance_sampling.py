@@ -341,10 +341,10 @@ class _Sampler:
         lapse, block_weights = float(weights.sum(axis=1) @ self.lapse.values), weights.sum(axis=0)
         q = shares / SHARE_DENOMINATOR
         # half a sample: none among some blocks is no certainty
-        least = 0.5 / (NEIGHBOURS * effective_sample_size(block_weights))
+        variance_floor = 0.5 / (NEIGHBOURS * effective_sample_size(block_weights))
         probability = 0.5 * lapse + (1.0 - lapse) * (q @ block_weights)
         positive, negative = self.experiment.outcome_counts()
-        noise = (positive / probability + negative / (1.0 - probability)) * np.sqrt((q * (1.0 - q)) @ block_weights + least)
+        noise = (positive / probability + negative / (1.0 - probability)) * np.sqrt((q * (1.0 - q)) @ block_weights + variance_floor)
         run_counts = np.clip(self.runs * noise * noise.sum() / (noise @ noise), 1.0, SHARE_DENOMINATOR)
         return (2 ** np.rint(np.log2(run_counts))).astype(np.int64), np.argsort(-noise, kind="stable")
 
