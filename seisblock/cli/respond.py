@@ -71,8 +71,7 @@ def respond(
     horizontal component acts along the width; seisblock scenario turns the object by 90 degrees, too. The overturning probability is the
     share of samples of body and motion that overturn. Samples vary around the given values; edge wear and friction that are not given
     are drawn from the ranges of the object's kind. --component all-azimuths reports the worst azimuth; towards an azimuth in degrees
-    the base is projected (width to north, --depth to east). A scanned --block is solved in three dimensions; with --planar its
-    dimensions depend on the azimuth.
+    the base is projected (width to north, --depth to east). A scanned --block is solved in three dimensions.
     """
     from seisblock.cli.progress import progress
     from seisblock.models.respond.solve import solve_respond
