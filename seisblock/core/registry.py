@@ -90,7 +90,7 @@ class Solver:
     threshold : callable or None
         ``threshold(body, options) -> (right, left)``: horizontal accelerations, m/s^2, at which a body at rest starts to move to +x and to
         -x under its static weight (rocks, slips or lifts); infinite where it does not move. Motion to +x starts under ground acceleration
-        to -x.
+        to -x. A spatial model takes ``axis`` as well: 1 for the directions +y and -y.
     spatial : bool
         True if the body meets all components in three dimensions, with its own orientation; else it is reduced to the plane of the motion.
     topics : tuple of str
@@ -119,7 +119,7 @@ class Solver:
     document: str | None = None
     solve_rows: Callable[[Sequence[SolverBody], Any], dict[str, RowResult]] | None = None
     row_options: tuple[str, ...] = ()
-    threshold: Callable[[Any, Any], tuple[float, float]] | None = None
+    threshold: Callable[..., tuple[float, float]] | None = None
     spatial: bool = False
     topics: tuple[str, ...] = ()
     command_topics: tuple[str, ...] = ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -108,10 +108,19 @@ def response_shaking(response: Response[Any], *, peaks: MotionPeaks | None = Non
     return shaking_of(response.motion, body_thresholds(response.model, response.body, response.options), peaks=peaks)
 
 
+def transverse_shaking(response: Response[Any]) -> BodyShaking | None:
+    """Return the shaking along +y of the motion of a spatial response; None for a plane model and without transverse motion."""
+    solver, motion = get_solver(response.model), response.motion
+    if not solver.spatial or solver.threshold is None or not motion.transverse.any():
+        return None
+    across = replace(motion, rows=(motion.transverse, motion.horizontal, motion.vertical))
+    return shaking_of(across, solver.threshold(response.body, response.options, axis=1))
+
+
 def body_thresholds(solver: str, body: Any, options: Any) -> tuple[float, float]:
     """Return the accelerations, m/s^2, at which a body starts to move to +x and to -x in a model; infinite where there are none."""
     threshold = get_solver(solver).threshold
     return Thresholds(math.inf, math.inf) if threshold is None else threshold(body, options)
 
 
-__all__ = ["BodyShaking", "Thresholds", "body_thresholds", "response_shaking", "shaking_of"]
+__all__ = ["BodyShaking", "Thresholds", "body_thresholds", "response_shaking", "shaking_of", "transverse_shaking"]

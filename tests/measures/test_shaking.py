@@ -18,7 +18,7 @@ from seisblock.bodies.two_layer import Contact, two_layer_from_table
 from seisblock.cli import main
 from seisblock.core.registry import get_solver, solver_names
 from seisblock.measures import measure
-from seisblock.measures.shaking import Thresholds, body_thresholds, response_shaking, shaking_of
+from seisblock.measures.shaking import Thresholds, body_thresholds, response_shaking, shaking_of, transverse_shaking
 from seisblock.models.jump.options import JumpOptions
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rigid3d.options import Rigid3dOptions
@@ -172,6 +172,37 @@ def test_model_starts_to_move_at_its_threshold(name, sign):
         shaking = response_shaking(response)
         assert (shaking.time_above_threshold_s > 0.0) == (factor > 1.0)
         assert shaking.threshold_m_s2 == pytest.approx(min(right, left), rel=1e-12)
+
+
+NARROW = {
+    "stack": (Pile("narrow", (PileStone("slab", 1.0, 1.0, 0.3), PileStone("top", 0.5, 0.3, 0.9, on="slab")), mu=0.8), StackOptions()),
+    "rigid3d": (Block(0.5, 0.9, depth=0.3), Rigid3dOptions(mu=0.8)),
+}
+"""Bodies that are weaker along y than along +x."""
+
+
+@pytest.mark.parametrize("name", NARROW)
+@pytest.mark.parametrize("factor", (0.995, 1.005))
+def test_spatial_model_starts_to_move_at_its_transverse_threshold(name, factor):
+    """Motion along +y only, up to 0.5 % below and above g b/h of the depth."""
+    body, options = NARROW[name]
+    shape = factor * GRAVITY * 0.3 / 0.9 * (0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 2001)))
+    motion = Motion(np.stack([0.0 * shape, shape, 0.0 * shape]), 0.005)
+    response = get_solver(name).solve(body, motion, **options.keywords())
+    shaking = transverse_shaking(response)
+    assert shaking.threshold_m_s2 == pytest.approx(GRAVITY * 0.3 / 0.9)
+    assert shaking.pga_m_s2 == pytest.approx(shape.max())
+    assert (shaking.time_above_threshold_s > 0.0) == (factor > 1.0)
+    tilt = response.outcome.max_tilt_rad if name == "rigid3d" else response.outcome.stones[-1].max_tilt_rad
+    assert (tilt > 1e-7) == (factor > 1.0)
+
+
+def test_transverse_shaking_belongs_to_spatial_models_with_transverse_motion():
+    motion = Motion.from_arrays([0.0, 1.0, 0.0, 0.0], 0.1)
+    body, options = NARROW["rigid3d"]
+    assert transverse_shaking(get_solver("rigid3d").solve(body, motion, **options.keywords())) is None
+    across = Motion(np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]), 0.1)
+    assert transverse_shaking(solve_rock(LOPSIDED, across)) is None
 
 
 def test_one_way_slide_has_a_threshold_to_one_side_only():

@@ -21,10 +21,10 @@ def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
     return SolverBody(spec.name, rigid_body_from_spec(spec), options)
 
 
-def _threshold(body: Block | ConvexBody | ScannedBody, options: Rigid3dOptions) -> tuple[float, float]:
-    """Return the smaller one of g b/h and mu g for each direction of +x."""
+def _threshold(body: Block | ConvexBody | ScannedBody, options: Rigid3dOptions, axis: int = 0) -> tuple[float, float]:
+    """Return the smaller one of g b/h and mu g for both directions of an axis."""
     solid = convex_body(body)
-    along = solid.support_polygon[:, 0] - solid.centre[0]
+    along = solid.support_polygon[:, axis] - solid.centre[axis]
     height = solid.centre[2] - float(solid.points[:, 2].min())
     right, left = (float(np.max(side * along)) / height for side in (1.0, -1.0))
     return options.gravity * min(options.mu, right), options.gravity * min(options.mu, left)

@@ -53,8 +53,8 @@ class EffectiveBase:
     housner_ratio: float
 
 
-def pile_thresholds(pile: Pile, points: int, gravity: float) -> tuple[float, float]:
-    """Return the horizontal accelerations, m/s^2, at which a part of a pile starts to move to +x and to -x when applied slowly.
+def pile_thresholds(pile: Pile, points: int, gravity: float, axis: int = 0) -> tuple[float, float]:
+    """Return the horizontal accelerations, m/s^2, at which a part of a pile starts to move in +axis and -axis when applied slowly.
 
     Each stone (or dowelled group) with everything that rests on it tips about the ends of the joints under it, at g times the arm over the
     height of its centre of gravity above them, or slips there at mu g; the least of all parts counts (derived here). Parts that stand on
@@ -67,6 +67,8 @@ def pile_thresholds(pile: Pile, points: int, gravity: float) -> tuple[float, flo
     points : int
         Contact points along each side of a joint; the outermost ones are the pivots.
     gravity : float, m/s^2
+    axis : int
+        0 for the directions +x and -x, 1 for +y and -y.
 
     Examples
     --------
@@ -84,9 +86,9 @@ def pile_thresholds(pile: Pile, points: int, gravity: float) -> tuple[float, flo
         levels = [joint.height for joint in supports]
         if not levels or max(levels) - min(levels) > CONTACT_TOLERANCE or any(pile.names[i] in pile.fixed for i in part):
             continue
-        spans = [_pivots(joint, pile, centres, points) for joint in supports]
+        spans = [_pivots(joint, pile, centres, points, axis) for joint in supports]
         mass = sum(pile.stones[i].mass for i in part)
-        x, z = (sum(pile.stones[i].mass * centres[i][axis] for i in part) / mass for axis in (0, 2))
+        x, z = (sum(pile.stones[i].mass * centres[i][k] for i in part) / mass for k in (axis, 2))
         rise = z - levels[0]
         mu = min(pile.friction(pile.stones[joint.upper])[0] for joint in supports)
         right = min(right, mu, (max(end for _, end in spans) - x) / rise)
@@ -102,11 +104,11 @@ def _part_above(members: tuple[int, ...], joints: Sequence[Joint]) -> set[int]:
     return part
 
 
-def _pivots(joint: Joint, pile: Pile, centres: Sequence[tuple[float, float, float]], points: int) -> tuple[float, float]:
-    """Return the outermost contact points of a joint along x, m."""
+def _pivots(joint: Joint, pile: Pile, centres: Sequence[tuple[float, float, float]], points: int, axis: int) -> tuple[float, float]:
+    """Return the outermost contact points of a joint along x or y, m."""
     if points == CORNER_POINTS:
-        return bearing_rectangle(joint, pile.stones, centres)[0]
-    low, high = joint.x
+        return bearing_rectangle(joint, pile.stones, centres)[axis]
+    low, high = (joint.x, joint.y)[axis]
     inset = 0.5 * (high - low) / points
     return low + inset, high - inset
 

@@ -34,7 +34,7 @@ SOLVER = register(
         overturned="overturned_any",
         damage_states={"slip": "residual_slip_m", "overturn": "overturned_any"},
         spatial=True,
-        threshold=lambda pile, options: pile_thresholds(pile, options.points, options.gravity),
+        threshold=lambda pile, options, axis=0: pile_thresholds(pile, options.points, options.gravity, axis),
         describe="seisblock.models.stack.describe:describe",
         plot="seisblock.models.stack.plot:figure",
         animate="seisblock.models.stack.animate:animate",

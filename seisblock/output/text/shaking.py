@@ -9,15 +9,18 @@ from rich.text import Text
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.results import Response
-from seisblock.measures.shaking import BodyShaking, response_shaking
+from seisblock.measures.shaking import BodyShaking, response_shaking, transverse_shaking
 from seisblock.output.text.tables import DASH, format_acceleration, format_number, format_seconds, styled_line
 from seisblock.output.units_display import velocity_unit
 
 
 def shaking_lines(responses: Sequence[Response[Any]], *, gal: bool, static: bool = False) -> Iterator[Text]:
-    """Yield a line per direction; `static` for a body on springs."""
+    """Yield a line per direction, in three dimensions also of the motion across it; `static` for a body on springs."""
     for response in responses:
-        yield styled_line(shaking_text(response.motion.name or "x", response_shaking(response), gal=gal, static=static), "dim")
+        name, across = response.motion.name or "x", transverse_shaking(response)
+        yield styled_line(shaking_text(name, response_shaking(response), gal=gal, static=static), "dim")
+        if across is not None:
+            yield styled_line(shaking_text(gettext("transverse to {name}", name=name), across, gal=gal), "dim")
 
 
 def shaking_text(name: str, shaking: BodyShaking, *, gal: bool = True, static: bool = False) -> str:

@@ -42,13 +42,13 @@ def verdict_text(assessment: Assessment) -> str:
     smallest, greatest = assessment.least_factor, assessment.greatest_factor
     if smallest is None or greatest is None:
         return gettext("{verdict} ({share})", **values)
-    low, high = _factor_text(smallest), _factor_text(greatest)
+    low, high = factor_text(smallest), factor_text(greatest)
     if low == high:
         return gettext("{verdict} ({share}; factor to overturning {factor})", **values, factor=low)
     return gettext("{verdict} ({share}; factor to overturning {low}-{high} by model)", **values, low=low, high=high)
 
 
-def _factor_text(factor: float) -> str:
+def factor_text(factor: float) -> str:
     """Return a factor to overturning; beyond :data:`FAR_FACTOR` its value has no meaning."""
     return f"{factor:.2f}" if factor < FAR_FACTOR else f">{FAR_FACTOR:g}"
 

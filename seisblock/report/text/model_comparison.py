@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.core.i18n import N_, format_percent, format_share, gettext, lazy_gettext
 from seisblock.output.describe_wear import sampled_edges
-from seisblock.output.text.tables import Part, styled_line, with_notes
+from seisblock.output.text.tables import Part, format_range, styled_line, with_notes
+from seisblock.report.text.assessment import factor_text
 from seisblock.studies.model_comparison import ModelComparison, ModelResult
 from seisblock.studies.parallel import left_out_versions
 from seisblock.studies.rocking.perturb import Perturbation
@@ -33,18 +35,16 @@ def agreement_line(name: str, agreement: ModelComparison) -> str:
         return gettext("{name}: overturns in {falls} of {models} models.", name=name, falls=agreement.falls, models=agreement.models)
     values = {"name": name, "models": agreement.models, "spread": agreement.spread}
     if agreement.unanimous:
-        ends = {"low": min(factors), "high": max(factors)}
         if agreement.falls:
             text = N_(
-                "{name}: overturns in all {models} models; scale factor to overturning {low:.2f}-{high:.2f} (largest "
-                "over smallest {spread:.1f})."
+                "{name}: overturns in all {models} models; scale factor to overturning {factors} (largest over smallest {spread:.1f})."
             )
         else:
             text = N_(
-                "{name}: does not overturn in any of the {models} models; scale factor to overturning {low:.2f}-{high:.2f} "
+                "{name}: does not overturn in any of the {models} models; scale factor to overturning {factors} "
                 "(largest over smallest {spread:.1f})."
             )
-        return gettext(text, **values, **ends)
+        return gettext(text, **values, factors=_factor_range(factors))
     text = N_(
         "{name}: overturns in {falls} of {models} models: {falling}; does not overturn in the others: {standing}. In brackets: "
         "scale factor to overturning, where computed (largest over smallest {spread:.1f})."
@@ -87,20 +87,25 @@ def spread_line(name: str, agreement: ModelComparison) -> str:
     if not factors:
         return agreement_line(name, agreement)
     return gettext(
-        "{name}: overturns in {falls} of {models} models; scale factor to overturning {low:.2f}-{high:.2f}.",
+        "{name}: overturns in {falls} of {models} models; scale factor to overturning {factors}.",
         name=name,
         falls=agreement.falls,
         models=agreement.models,
-        low=min(factors),
-        high=max(factors),
+        factors=_factor_range(factors),
     )
+
+
+def _factor_range(factors: Sequence[float]) -> str:
+    """Return the smallest and the largest scale factor to overturning."""
+    low, high = factor_text(min(factors)), factor_text(max(factors))
+    return low if low == high else format_range(low, high)
 
 
 def _opinion_text(opinion: ModelResult) -> str:
     """Return the label of a model with its scale factor to overturning."""
     if opinion.factor is None:
         return model_label(opinion)
-    return gettext("{model} ({factor:.2f})", model=model_label(opinion), factor=opinion.factor)
+    return gettext("{model} ({factor})", model=model_label(opinion), factor=factor_text(opinion.factor))
 
 
 def model_label(opinion: ModelResult | ModelRate) -> str:

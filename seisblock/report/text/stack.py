@@ -56,9 +56,9 @@ def _details(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal:
     """Yield the table of one run, the contact model, the varied parameters and the model comparison of the top stone."""
     agreement: ModelComparison | None = extra["agreement"]
     yield stone_table(response, gal=gal)
-    yield styled_line(base_text(response))
     if "probability" in extra:
         yield from _version_tables(extra["probability"], response.body, gal=gal)
+    yield details(styled_line(base_text(response)))
     if agreement is not None:
         top = gettext("{stone}, {name}", stone=gettext(response.body.names[-1]), name=response.motion.name)
         line = styled_line(agreement_line(top, agreement))
@@ -71,7 +71,6 @@ def _version_tables(probability: PileProbability, pile: Pile, *, gal: bool) -> I
     """Yield the share of samples in which each stone falls and moves, and the varied parameters."""
     columns = [gettext("stone"), gettext("falls (%)"), gettext("95 % interval"), gettext("falls to (deg)"), gettext("moves (%)")]
     length = format_length(probability.moved_m, gal=gal)
-    yield styled_line()
     yield table(
         gettext("{runs} samples; moves: residual displacement above {far}, or falls", runs=probability.runs, far=length),
         columns,
