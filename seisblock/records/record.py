@@ -136,7 +136,7 @@ class Record(PlotMixin):
             invalid = np.flatnonzero(~np.isfinite(component.acceleration))
             if invalid.size:
                 raise RecordError(
-                    "{where}: {count} non-finite samples in component {code}, the first at index {first}",
+                    "{where}: component {code} is not finite at {count} of its samples, the first at index {first}",
                     where=source,
                     code=component.code,
                     count=invalid.size,

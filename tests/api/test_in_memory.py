@@ -30,7 +30,7 @@ def test_record_from_arrays_holds_components_azimuths_and_start():
     [
         ({}, "no components"),
         ({"NS": SINE, "EW": SINE[:-1]}, "differ in length"),
-        ({"NS": [0.0, np.nan]}, "non-finite"),
+        ({"NS": [0.0, np.nan]}, "not finite at 1 of its samples"),
         ({"NS": np.zeros((2, 3))}, r"the accelerations must have shape \(n,\)"),
     ],
 )

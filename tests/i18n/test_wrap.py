@@ -62,6 +62,15 @@ def test_wrapped_indented_sentence_is_complete(width):
     assert "".join(output.split()) == "".join((TEXT * 2).split())
 
 
+@pytest.mark.parametrize("text", (TEXT * 2, "residual displacement of the stone above 1.0 cm " * 4))
+@pytest.mark.parametrize("width", (30, 80))
+def test_indent_stands_on_every_line_of_a_sentence(text, width):
+    """Continuation lines of an indented sentence were flush with its headline."""
+    lines = console_output(styled_line("  " + text), width=width).rstrip("\n").split("\n")
+    assert len(lines) > 1
+    assert all(line[:2] == "  " and line[2] != " " and display_width(line) <= width for line in lines)
+
+
 def test_console_escapes_markup_and_control_characters():
     """R15: square brackets of a station are printed as they are, emoji codes too; escapes are spelt out, in titles, headings, cells."""
     hostile = "[red]A[/red] :warning: \x1b[31m"

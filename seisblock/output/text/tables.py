@@ -123,9 +123,15 @@ def styled_line(text: str = "", style: str = "") -> Text:
 
 
 class _WrappedText(Text):
-    """Text with line breaks between wide characters, too; rich breaks at blanks, of which Japanese has few."""
+    """Text with its indent on every line and breaks between wide characters; rich breaks at blanks, of which Japanese has few."""
 
     def wrap(self, console: Console, width: int, **options: Any) -> Lines:  # type: ignore[override]
+        indent = len(self.plain) - len(self.plain.lstrip(" "))
+        if 0 < indent < min(len(self.plain), width):
+            indented = _WrappedText(self.plain[indent:], self.style).wrap(console, width - indent, **options)
+            for line in indented:
+                line.pad_left(indent)
+            return indented
         if not is_wide(self.plain) and not (has_quantity(self.plain) and fits(self.plain, width)):
             return super().wrap(console, width, **options)
         lines = Lines()
