@@ -63,8 +63,7 @@ def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
                 s = 1.0 if tn > 0.0 else -1.0
                 ratio = -s * mu
         du = nn + tn * ratio
-        # exactly zero in stick, so that the round-off of tn + tt ratio cannot restart a slip
-        dv = tn + tt * ratio if s != 0.0 else 0.0
+        dv = tn + tt * ratio
         step = target - normal
         stops = False
         if v != 0.0 and v * dv < 0.0:
@@ -81,6 +80,7 @@ def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
         normal += step
         tangential += ratio * step
         u += du * step
+        # exactly zero in stick, so that the round-off of tn + tt ratio cannot restart a slip
         v = 0.0 if stops or s == 0.0 else v + dv * step
         if stops:
             s = 0.0

@@ -284,10 +284,10 @@ def build_outcome(run: Run, params: RespondParams, start_s: float, repeat: Calla
 
 def _count_flights(changes: EventLog) -> int:
     """Return the number of events that start a flight, rebounds included."""
-    in_flight = (changes.target >= 0) & (changes.target % constants.TENON_OFFSET == constants.FLIGHT)
+    is_flight = np.array(constants.MODES) == "flight"
     # a rebound leads from flight to flight through an impact
     is_rebound = changes.after[:, constants.IMPACTS] > changes.before[:, constants.IMPACTS]
-    return int(np.count_nonzero(in_flight & ((changes.source % constants.TENON_OFFSET != constants.FLIGHT) | is_rebound)))
+    return int(np.count_nonzero(is_flight[changes.target] & (~is_flight[changes.source] | is_rebound)))
 
 
 def run_status(run: Run) -> Status:

@@ -14,6 +14,7 @@ from seisblock.records import Motion
 from tests.models.respond.cases import shaking
 
 MOTION = shaking(9, 9.0, seconds=8.0)
+SHORT = Motion(MOTION.acceleration[:, :500], MOTION.dt)
 
 
 def versions(n=40):
@@ -24,13 +25,15 @@ def versions(n=40):
     return [(block, {"mu": mu, "restitution": e}) for block, mu, e in numbers]
 
 
-def test_respond_many_rows_equal_single_runs():
-    """Verdict, displacements, leans, paths, impacts and times are equal to the last bit."""
+@pytest.mark.parametrize(("motion", "settle_s"), [(MOTION, 60.0), (SHORT, 0.0), (SHORT, 0.4)], ids=["to rest", "no time", "little time"])
+def test_respond_many_rows_equal_single_runs(motion, settle_s):
+    """Verdict, displacements, leans, paths, impacts and times are equal to the last bit, also of runs that end in motion."""
     rows = versions()
-    batch = respond_many([respond_params(block, RespondOptions(**options)) for block, options in rows], MOTION)
+    batch = respond_many([respond_params(block, RespondOptions(**options)) for block, options in rows], motion, settle_s=settle_s)
     assert 0 < batch.overturned.sum() < len(rows)
+    assert batch.settled[~batch.overturned].all() == (motion is MOTION)
     for row, (block, options) in enumerate(rows):
-        response = solve_respond(block, MOTION, sensitivity=False, **options)
+        response = solve_respond(block, motion, sensitivity=False, settle_s=settle_s, **options)
         first = response.outcome
         assert batch.overturned[row] == first.overturned
         assert batch.settled[row] == first.settled
