@@ -149,7 +149,6 @@ def advance_rows(grounds, parameters, rows, row_ids, is_waiting, lanes, max_samp
     for lane in range(N_LANES):
         row = row_ids[lane]
         if is_waiting[lane] != 0:
-            lanes[IS_ACTIVE + lane] = 0.0
             if row >= 0 and rows.counters[row, MODE] != REST and parameters[row, IS_LINEAR] == 0.0:
                 _load_lane(grounds, parameters, rows, row, lane, lanes)
                 is_waiting[lane] = 0
