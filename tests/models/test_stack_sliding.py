@@ -117,3 +117,20 @@ def test_turning_and_sliding_slab_matches_fine_steps():
         missed.append(np.hypot(*(way - expected[remaining]).T).max() / np.hypot(*expected.T).max())
     assert np.median(missed) < 0.01
     assert np.quantile(missed, 0.9) < 0.03
+
+
+def test_slabs_apart_slide_as_each_does_alone():
+    """Two on the ground, with weights and frictions of their own: what one carries does not brake the other."""
+    slabs = (
+        PileStone("heavy", 1.0, 1.0, 0.4, mu=STATIC, mu_kinetic=0.25),
+        PileStone("light", 0.8, 0.8, 0.1, (3.0, 0.5), mu=0.3, mu_kinetic=0.2),
+    )
+    motion = Motion(np.array([sine(7.0, 2.0, 2.0, 0.3), sine(4.0, 1.6, 1.6, 0.3), np.zeros(130)]), DT)
+    both = solve_stack(Pile("both", slabs), motion)
+    for slab in slabs:
+        alone = solve_stack(Pile("alone", (slab,)), motion)
+        assert np.ptp(alone[f"{slab.name}_x"]) > 0.01
+        for axis in "xyz":
+            name = f"{slab.name}_{axis}"
+            # samples at which all stones rest have no row
+            np.testing.assert_allclose(np.interp(alone.time, both.time, both[name]), alone[name], atol=1e-7)

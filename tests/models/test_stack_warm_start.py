@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from seisblock.models.stack.constraint_row import ARM_B, GAP, IMPULSE, NORMAL
 from seisblock.models.stack.frames import BODY, Q, update_rotation_matrix
 from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_SLIDING, POSITION, PREVIOUS_FORCE, SLOT
-from seisblock.models.stack.warm_start import distribute_load, has_lost_loaded_point, sum_joint_load
+from seisblock.models.stack.warm_start import distribute_load, has_lost_loaded_point, project_to_plane, sum_joint_load
 
 
 def rotated_body(rng):
@@ -73,3 +74,34 @@ def test_two_or_collinear_points_get_no_distributed_load():
     loads[0, 2] = loads[0, 6] = 1.0
     assert not distribute_load(2, slots, loads, body)
     assert not sum_joint_load(slots, body, loads)
+
+
+@pytest.mark.kernel
+def test_normal_impulses_of_a_flat_joint_move_to_a_plane():
+    """The plane of least squares where no point pulls, else on the way to it as far as none does; load and friction are unchanged."""
+    rng, ends = np.random.default_rng(5), set()
+    for _ in range(20):
+        _, axes = rotated_body(rng)
+        count = int(rng.integers(4, 9))
+        points, pressing = rng.normal(size=(count, 2)), rng.uniform(0.0, 1.0, count) ** 3
+        friction = 0.1 * rng.normal(size=(count, 2))
+        table = np.zeros((count + 1, 100))
+        table[:, NORMAL : NORMAL + 3] = axes[:, 2]
+        table[1:, ARM_B : ARM_B + 3] = np.column_stack([points, np.full(count, 0.3)]) @ axes.T
+        table[1:, IMPULSE : IMPULSE + 3] = np.column_stack([friction, pressing]) @ axes.T
+        # an open point leaves the distribution alone
+        table[count, GAP] = 2.0
+        before = table.copy()
+        project_to_plane(1, count + 1, 1.0, table)
+        np.testing.assert_array_equal(table, before)
+        table[count, GAP] = 0.5
+        project_to_plane(1, count + 1, 1.0, table)
+        after = table[1:, IMPULSE : IMPULSE + 3] @ axes
+        basis = np.column_stack([np.ones(count), points])
+        plane = basis @ np.linalg.lstsq(basis, pressing, rcond=None)[0]
+        np.testing.assert_allclose(after[:, :2], friction, atol=1e-12)
+        np.testing.assert_allclose(basis.T @ after[:, 2], basis.T @ pressing, atol=1e-12)
+        changes, limits = plane - pressing, np.where(plane < 0.0, pressing / np.maximum(pressing - plane, 1e-300), 1.0)
+        np.testing.assert_allclose(after[:, 2], pressing + limits.min() * changes, atol=1e-12)
+        ends.add(bool(limits.min() < 1.0))
+    assert ends == {False, True}

@@ -11,7 +11,7 @@ from seisblock.core import checks
 from seisblock.core.errors import BodyError, ParameterError
 from seisblock.core.typing import FloatArray
 from seisblock.models.stack.arrays import PileArrays
-from seisblock.models.stack.frames import INERTIA, INVERSE, MASS, Q, R, X
+from seisblock.models.stack.frames import INERTIA, INVERSE, MASS, Q, X, update_rotation_matrix
 from seisblock.models.stack.step import CARRIER, PARTNER, POINT, SIGMA
 
 STABILITY_LIMIT = 4.0
@@ -193,12 +193,10 @@ def _displace(
     """Write small displacements into the bodies, and the corresponding stretch of the shear springs."""
     for b in range(pile.inertias.shape[0]):
         bodies[b, X : X + 3] += u[6 * b : 6 * b + 3]
-        half_rotation = 0.5 * u[6 * b + 3 : 6 * b + 6]
-        # small rotation in Cayley's form; below, R = I + 2 w [v] + 2 [v]^2
-        bodies[b, Q : Q + 4] = np.array([1.0, *half_rotation]) / math.sqrt(1.0 + half_rotation @ half_rotation)
-        w, v = bodies[b, Q], bodies[b, Q + 1 : Q + 4]
-        cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
-        bodies[b, R : R + 9] = (np.eye(3) + 2.0 * w * cross + 2.0 * cross @ cross).ravel()
+        # small rotation in Cayley's form, from the quaternion 1
+        bodies[b, Q + 1 : Q + 4] = 0.5 * u[6 * b + 3 : 6 * b + 6]
+        bodies[b, Q : Q + 4] /= np.linalg.norm(bodies[b, Q : Q + 4])
+        update_rotation_matrix(bodies[b])
     for (j, o, q), shift in zip(index.tolist(), displacements, strict=True):
         # the stretch is the displacement of the carrier relative to its partner
         if shift[2] < 0.0:
