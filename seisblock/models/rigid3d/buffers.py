@@ -22,12 +22,12 @@ MASS, MU, RESTITUTION, GRAVITY, SIZE, GAP, SPEED, RATE, BASE_HEIGHT = range(9)
 body rests, m/s; largest frequency of its motion, rad/s; height of the centre above the base in the body's axes, m."""
 
 (
-    CREATED, DISSIPATED, WORK, MAX_TILT, OVERTURNING_TIME, UP_X, UP_Y, IMPACTS, UNCONVERGED, CAPPED, MAX_DISTANCE, REST_TIME, LIFT_TIME,
+    CREATED, DISSIPATED, WORK, MAX_TILT, OVERTURNING_TIME, UP_X, UP_Y, IMPACTS, UNCONVERGED, MAX_DISTANCE, REST_TIME, LIFT_TIME,
     START_X, START_Y, PATH,
-) = range(16)  # fmt: skip
-LEDGER_SIZE = 16
+) = range(15)  # fmt: skip
+LEDGER_SIZE = 15
 """Ledger of a run: energy created and dissipated by contacts and work of the ground, J; largest tilt, rad; time of overturning, s, and the
-direction of the body's axis there; numbers of impacts, of unconverged solutions and of intervals with too many impacts; largest
+direction of the body's axis there; numbers of impacts and of unconverged solutions; largest
 horizontal distance from the start, m; time at which the body came to rest for good, and time of the first motion, s; place at the
 start (2), m; largest path of a vertex since the near vertices were listed, m."""
 
@@ -67,7 +67,7 @@ class Workspace(NamedTuple):
     ----------
     state, trial : (16,) arrays
     counters : (5,) array of int
-    ledger : (16,) array
+    ledger : (15,) array
     heights, ids, near : (n,) arrays
         Heights of the vertices, the vertices in contact, and those near the ground, whose heights are up to date.
     contacts, impulses : (n, 5), (n, 15) arrays

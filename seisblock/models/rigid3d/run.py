@@ -12,7 +12,6 @@ from seisblock.models.rigid3d.buffers import (
     AT_REST,
     BASE_HEIGHT,
     BODY,
-    CAPPED,
     CREATED,
     DISSIPATED,
     EDGES,
@@ -229,8 +228,7 @@ def _advance(motion, dt, s, start, body, scratch):
         # too many impacts within one interval: whatever could reach the ground during the step becomes a contact of
         # it
         if capped:
-            speed = math.sqrt(y[V] * y[V] + y[V + 1] * y[V + 1] + y[V + 2] * y[V + 2])
-            reach += h * (speed + (spin + h * c[RATE] * c[RATE]) * c[SIZE] + h * 3.0 * c[GRAVITY])
+            reach += h * (abs(y[V + 2]) + (spin + h * c[RATE] * c[RATE]) * c[SIZE] + h * 3.0 * c[GRAVITY])
             list_near(y, math.inf, body, scratch)
         count = find_contacts(reach, scratch)
         energy = mechanical_energy(y, body)
@@ -314,8 +312,6 @@ def _advance(motion, dt, s, start, body, scratch):
         if struck:
             impacts += 1
             ledger[IMPACTS] += 1.0
-            if impacts == MAX_IMPACTS:
-                ledger[CAPPED] += 1.0
             # the impact has changed the spin: the last angular acceleration predicts nothing
             y[ALPHA], y[ALPHA + 1], y[ALPHA + 2] = 0.0, 0.0, 0.0
         _track(s * dt + t, struck, count, body, scratch)
