@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import json
+import math
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from scipy.stats import foldnorm
 
 from seisblock import Block, Motion, motion_of, read
 from seisblock.cli import main
 from seisblock.core.errors import ParameterError
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.studies.sampling import ParameterVariation, draw_samples, rigid3d_outcomes
-from seisblock.studies.survey.twist import infer_twist, pooled_pga
+from seisblock.studies.survey.twist import MIN_TWIST_ERROR_DEG, TWIST_ERROR, _likelihood, infer_twist, pooled_pga
 
 BODY, OPTIONS = Block(0.24, 0.72, 0.3), Rigid3dOptions(mu=0.5, settle_s=5.0)
 
@@ -78,3 +80,11 @@ def test_infer_twist_command_gives_factor_and_pga(tmp_path):
     assert refused.exit_code == 2 and "exactly one" in refused.output
     refused = CliRunner().invoke(main, ["infer", "--twist", "1", "--mu", "0.5"])
     assert refused.exit_code == 3 and "--width" in refused.output
+
+
+@pytest.mark.parametrize(("observed", "error"), [(0.1, MIN_TWIST_ERROR_DEG), (20.0, 20.0 * TWIST_ERROR)])
+def test_likelihood_of_a_twist_is_folded_normal(observed, error):
+    """The error grows with the reading above its smallest value; a reading without its sense sums both."""
+    for twist in (0.0, 0.3 * observed, observed, observed + 2.0 * error):
+        density = foldnorm.pdf(observed, twist / error, scale=error)
+        assert _likelihood(twist, observed) == pytest.approx(math.sqrt(2.0 * math.pi) * error * density, rel=1e-9)

@@ -10,17 +10,21 @@ import pytest
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.bodies.edge_wear import DEFAULT_WEAR
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.core.results import Response
-from seisblock.criteria.gravestones import overturning_pga
+from seisblock.criteria.gravestones import DOWELLED, overturning_pga
 from seisblock.measures import measure
 from seisblock.models.rock.verdicts import rock_verdict
+from seisblock.models.stack.options import StackOptions
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.report.text.model_comparison import agreement_line, rates_line
 from seisblock.studies.model_comparison import (
     GRAVESTONES,
     ISHIYAMA,
+    PILE,
     PULSE,
     SHARP_BLOCK,
     WORN_BLOCK,
@@ -130,3 +134,22 @@ def test_closed_form_states_frequency_and_edges():
         assert f"Ishiyama's limits of acceleration and velocity with {edges} edges (" in comparison
     rates = rates_by_model(read_cemetery("aoyama.csv"), 4.2, 1.2)
     assert "(half-sine pulse of 1.2 Hz with worn edges)" in rates_line("NS", rates)
+
+
+def test_pile_is_compared_by_its_top_stone_alone():
+    """Stones below the top one change none of its models' factors, which are those of a pile of this stone only."""
+    sao, dai = PileStone("sao", 0.24, 0.24, 0.7, on="base"), PileStone("base", 0.6, 0.5, 0.25)
+
+    def models(pile):
+        response = Response("stack", None, MOTION, pile, options=StackOptions())
+        return opinions(compare_pile_models(response, ModelResult(PILE, False, None)))
+
+    two, alone = models(Pile("two", (dai, sao))), models(Pile("alone", (replace(sao, on="ground"),)))
+    assert two == alone
+    assert list(two) == [SHARP_BLOCK, WORN_BLOCK, GRAVESTONES, PULSE, ISHIYAMA, PILE]
+    # a dowel doubles what a gravestone withstands, and is part of no criterion of other stones
+    dowelled = models(Pile("dowelled", (dai, sao), dowels=(("base", "sao"),)))
+    measured = measure(RECORD, ("NS",)).components[0]
+    level = float(overturning_pga(0.7 / 0.24, measured.equivalent_frequency_hz.pga_pgv, DOWELLED))
+    assert dowelled[GRAVESTONES].factor == pytest.approx(level / measured.pga_m_s2, rel=1e-9)
+    assert GRAVESTONES not in models(Pile("cap", (dai, replace(sao, name="cap"))))
