@@ -59,6 +59,13 @@ def mutation_specs(path: Path) -> list["MutationSpec"]:
     source = path.read_text(encoding="utf-8")
     nodes = list(ast_nodes(get_ast(source)))
     lines = source.splitlines()
+
+    def is_behaviour(start: tuple[int, int]) -> bool:
+        """Return whether a test could hold a place: no option of a dataclass or kernel, no ``*`` of a signature, no assertion of `zip`."""
+        line = lines[start[0] - 1]
+        is_marker = line[start[1] : start[1] + 2] == "*," or line[: start[1]].endswith("strict=")
+        return not line.lstrip().startswith("@") and not is_marker
+
     specs = []
     for name in OPERATORS:
         operator = get_operator(name)()
@@ -66,14 +73,13 @@ def mutation_specs(path: Path) -> list["MutationSpec"]:
         specs += [
             MutationSpec(path.relative_to(ROOT), name, occurrence, start_pos=start, end_pos=end)
             for occurrence, (start, end) in enumerate(positions)
-            # options of dataclasses and signatures of kernels are no behaviour that a test should hold
-            if not lines[start[0] - 1].lstrip().startswith("@")
+            if is_behaviour(start)
         ]
     return specs
 
 
 def select_tests(module: Path) -> list[str]:
-    """Return the tests of a module: its doctests and the files that import it or are named after its model, format or study."""
+    """Return the tests of a module: its doctests, the files that import it, then those that concern its model, format or study."""
     folder, name, stem = module.parts[1], module.parts[2], module.stem
     dotted = ".".join(module.with_suffix("").parts)
     parent, last = dotted.rsplit(".", 1)
@@ -82,15 +88,24 @@ def select_tests(module: Path) -> list[str]:
     texts = {path: text for path, text in texts.items() if not SLOW_FOLDERS & set(path.parts)}
     direct = [path for path, text in texts.items() if any(line in text for line in imports)]
     if folder == "models":
-        stems = {"slide": ("slide", "sliding"), "rock": ("test_rock",)}.get(name, (name,))
-        nearby = [
-            path for path in texts if {"models", "properties"} & set(path.parts) and any(s in str(path.relative_to(ROOT)) for s in stems)
+        named = [path for path, text in texts.items() if {"models", "properties"} & set(path.parts)]
+        named = [path for path in named if f"models.{name}." in texts[path] or name in str(path.relative_to(ROOT))]
+        # numbers of kernels are not looked for in printed answers
+        printed = [
+            path for path in texts if "cli" in path.parts and name in path.stem and "@kernel" not in (ROOT / module).read_text("utf-8")
         ]
+        nearby = [*named, *printed]
     elif name == "formats":
-        nearby = [path for path, text in texts.items() if "readers" in path.parts and stem.split("_")[0] in text]
+        nearby = [path for path, text in texts.items() if "readers" in path.parts and (stem.split("_")[0] in text or "FORMATS" in text)]
     else:
-        nearby = [] if direct else [path for path in texts if folder in path.parts and (folder == "readers" or name in str(path))]
-    files = sorted({*direct, *nearby}) or [ROOT / "tests" / folder]
+        words = {part.removesuffix(".py") for part in module.parts[2:]}
+        nearby = [
+            path
+            for path in texts
+            if {folder, "cli"} & set(path.parts) and any(word in str(path.relative_to(ROOT / "tests")) for word in words)
+        ]
+        nearby += [] if folder != "readers" or direct else [path for path in texts if "readers" in path.parts]
+    files = list(dict.fromkeys([*direct, *nearby])) or [ROOT / "tests" / folder]
     return [str(module), *(str(path.relative_to(ROOT)) for path in files)]
 
 
