@@ -148,10 +148,9 @@ def advance_rows(grounds, parameters, rows, row_ids, is_waiting, lanes, max_samp
     active_count = 0
     for lane in range(N_LANES):
         row = row_ids[lane]
-        if is_waiting[lane] != 0:
-            if row >= 0 and rows.counters[row, MODE] != REST and parameters[row, IS_LINEAR] == 0.0:
-                _load_lane(grounds, parameters, rows, row, lane, lanes)
-                is_waiting[lane] = 0
+        if is_waiting[lane] != 0 and row >= 0 and rows.counters[row, MODE] != REST and parameters[row, IS_LINEAR] == 0.0:
+            _load_lane(grounds, parameters, rows, row, lane, lanes)
+            is_waiting[lane] = 0
         active_count += is_waiting[lane] == 0
     sample_count = 0
     inactive_count = int(active_count == 0)
