@@ -1,4 +1,4 @@
-"""What the headers of every format state of station, earthquake and instrument is read."""
+"""Station, earthquake and instrument in the headers of every format, as their text states them."""
 
 import json
 from pathlib import Path
