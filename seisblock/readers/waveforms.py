@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from seisblock.core import units
 from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
@@ -47,7 +48,7 @@ _LETTER_AZIMUTHS = {"N": 0.0, "E": 90.0}
 MAX_MISALIGNMENT_DEG = 5.0
 """Largest difference of the azimuth of a channel N or E from north or east, degrees, as in the SEED manual."""
 
-VELOCITY_UNITS = {"m/s": 1.0, "cm/s": 1e-2, "kine": 1e-2, "mm/s": 1e-3, "um/s": 1e-6, "nm/s": 1e-9}
+VELOCITY_UNITS = {**units.VELOCITY_UNITS, "um/s": 1e-6, "nm/s": 1e-9}
 """Units of velocities to be differentiated, m/s."""
 
 FileFlags = Callable[[bytes, Sequence[Any]], "Sequence[QCFlag]"]

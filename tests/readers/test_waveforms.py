@@ -59,8 +59,9 @@ def test_velocity_channel_is_rejected_unless_differentiate(tmp_path):
     reference = obspy.read(str(paths[1]))[0].remove_sensitivity(obspy.read_inventory(str(tmp_path / "response.txt"))).differentiate()
     np.testing.assert_allclose(record.component("EW").acceleration, reference.data, rtol=1e-12)
     assert any("differentiated" in entry for entry in record.history)
-    kine = read(paths[0], differentiate=True, units="kine")
-    np.testing.assert_allclose(kine.component("NS").acceleration, np.gradient(counts("N") / 100.0, DT), rtol=1e-12)
+    for unit, per_metre in {"kine": 100.0, "cm/s": 100.0, "M/S": 1.0, "mm/s": 1e3, "um/s": 1e6, "nm/s": 1e9, "in/s": 1.0 / 0.0254}.items():
+        stated = read(paths[0], differentiate=True, units=unit)
+        np.testing.assert_allclose(stated.component("NS").acceleration, np.gradient(counts("N") / per_metre, DT), rtol=1e-12)
     with pytest.raises(UnitError, match="unknown velocity unit 'gal'"):
         read(paths[0], differentiate=True, units="gal")
 
