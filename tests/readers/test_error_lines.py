@@ -19,11 +19,13 @@ DAMAGE = (
 
 @pytest.mark.parametrize("kind", [kind for kind in FORMATS if kind not in (*BINARY, "phone", "slist", "tspair")])
 def test_errors_name_the_line_that_they_quote(kind, tmp_path):
-    """Lines of the header and of samples damaged one at a time."""
-    intact = FORMATS[kind].data.decode("latin-1").split("\n")
+    """Lines of the header and of samples damaged one at a time, and a line below the last one."""
+    intact = FORMATS[kind].data.decode("latin-1").rstrip("\r\n").split("\n")
     path, named = tmp_path / "record", 0
-    for i in [*range(min(len(intact), 30)), len(intact) // 2, len(intact) // 2 + 1, len(intact) - 2]:
-        lines = [*intact[:i], *DAMAGE[i % 3](intact[i]), *intact[i + 1 :]]
+    places = [*range(min(len(intact), 30)), len(intact) // 2, len(intact) // 2 + 1, len(intact) - 1, len(intact)]
+    for i in places:
+        damage = i % 3 if i < len(intact) else 0
+        lines = [*intact[:i], *DAMAGE[damage]("".join(intact[i : i + 1])), *intact[i + 1 :], ""]
         path.write_bytes("\n".join(lines).encode("latin-1"))
         try:
             read_all(str(path), **FORMATS[kind].options)
@@ -36,7 +38,9 @@ def test_errors_name_the_line_that_they_quote(kind, tmp_path):
             number, quoted = int(place[1]), re.search(r"found (?:'([^']*)'|\"([^\"]*)\")", message)
             if quoted:
                 assert (quoted[1] or quoted[2] or "") in lines[number - 1], message
+            elif "duplicate" in message or "twice" in message:
+                assert number == i + 2, message
             else:
                 # a repeated line shifts those below it
-                assert number == i + 1 or (i % 3 == 2 and number > i + 1), message
+                assert number == i + 1 or (damage == 2 and number > i + 1), message
     assert named > 0
