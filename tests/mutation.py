@@ -48,6 +48,8 @@ OPERATORS = (
 )
 TIMEOUT_S = 400.0
 SLOW_FOLDERS = {"benchmarks", "papers", "fuzz", "validation"}
+PRINTED = ("papers/test_evidence.py", "papers/test_paper_items.py", "test_pages.py")
+"""Tests of many models and studies at once, run last: evidence, tables of papers, output on pages."""
 
 
 def mutation_specs(path: Path) -> list["MutationSpec"]:
@@ -106,6 +108,7 @@ def select_tests(module: Path) -> list[str]:
         ]
         nearby += [] if folder != "readers" or direct else [path for path in texts if "readers" in path.parts]
     files = list(dict.fromkeys([*direct, *nearby])) or [ROOT / "tests" / folder]
+    files += [] if folder == "readers" else [ROOT / "tests" / name for name in PRINTED]
     return [str(module), *(str(path.relative_to(ROOT)) for path in files)]
 
 
