@@ -13,7 +13,9 @@ from seisblock.models.stack.arrays import pile_arrays
 from seisblock.models.stack.constraint_row import (
     ARM_A,
     ARM_B,
+    BILATERAL,
     CONE_CENTRE,
+    FORCE_SLOPE,
     IMPULSE,
     LAW_CHANGE,
     MIN_NORMAL_VELOCITY,
@@ -21,10 +23,12 @@ from seisblock.models.stack.constraint_row import (
     NORMAL,
     PROJECTED,
     ROW_COLUMNS,
+    SLIDING_DIRECTION,
+    SLIP_SLOPE,
     VELOCITY_COLUMNS,
     set_delassus_block,
 )
-from seisblock.models.stack.newton import GRADIENT, TRIAL_SLIP, WORK_COLUMNS, solve_newton
+from seisblock.models.stack.newton import GRADIENT, STEP, WORK_COLUMNS, solve_newton
 from seisblock.models.stack.pgs import solve_pgs
 from seisblock.models.stack.recorder import SOLVED, UNCONVERGED
 from seisblock.models.stack.solve import solve_stack
@@ -128,31 +132,110 @@ def test_slope_of_law_is_derivative_of_projected_impulse(state):
     np.testing.assert_allclose(newton._law_slope(row, *velocity), 0.0, atol=1e-12)
 
 
-def test_hessian_is_derivative_of_gradient():
-    """At random velocities, with held friction limits; the lowest stone lies on sleeping ones, whose centres differ."""
-    count, rng = 4, np.random.default_rng(3)
-    ids, rows, masses, inverses, velocities = tower(rng, count, 0.3)
-    rows[:4, ARM_B : ARM_B + 3] += rng.normal(0.0, 1.0, (4, 3))
-    rows[:, IMPULSE + 2] = rng.uniform(0.5, 2.0, len(rows))
+def network(rng, mu=0.4):
+    """Return contact bodies, rows, masses, inverse inertias and velocities of five stones that touch in both orders, and the ground.
+
+    Three contacts each, in random directions; one is bilateral, one does not act.
+    """
+    pairs, count = ((0, 5), (1, 0), (1, 2), (3, 0), (2, 5), (2, 3), (4, 1)), 5
+    ids, rows = np.zeros((3 * len(pairs), 8), dtype=np.int64), np.zeros((3 * len(pairs), ROW_COLUMNS))
+    masses, inverses = np.zeros((count, 19)), np.zeros((count + 1, 9))
+    masses[:, 0] = MASS * rng.uniform(0.2, 1.0, count)
+    for i in range(count):
+        root = rng.normal(size=(3, 3))
+        inverses[i] = ((root @ root.T + np.eye(3)) / masses[i, 0]).ravel()
+    velocities = np.zeros((count + 1, VELOCITY_COLUMNS))
+    velocities[:count, :6] = rng.normal(0.0, 0.3, (count, 6))
+    for p, pair in enumerate(pairs):
+        distance, normal = rng.normal(size=3), rng.normal(size=3)
+        normal /= np.linalg.norm(normal)
+        for k in range(3 * p, 3 * p + 3):
+            row, ids[k, :2] = rows[k], pair
+            row[ARM_B : ARM_B + 3] = rng.normal(size=3)
+            row[ARM_A : ARM_A + 3] = row[ARM_B : ARM_B + 3] + distance
+            row[NORMAL : NORMAL + 3], row[MU] = normal, mu
+            slip = np.cross(normal, rng.normal(size=3))
+            row[CONE_CENTRE : CONE_CENTRE + 3] = 0.1 * slip
+            row[IMPULSE : IMPULSE + 3] = rng.uniform(1.0, 5.0) * (normal + 0.3 * rng.uniform() * slip)
+            set_delassus_block(*pair, count, masses, inverses, row)
+    rows[4, BILATERAL], rows[7, MIN_NORMAL_VELOCITY] = 1.0, -math.inf
+    return ids, rows, masses, inverses, velocities
+
+
+def jacobian(ids, row, count):
+    """Return the (3, 6 m) matrix that turns the velocities of the bodies into the relative velocity of a contact."""
+    result = np.zeros((3, 6 * count))
+    for body, arm, sign in ((ids[0], row[ARM_A : ARM_A + 3], 1.0), (ids[1], row[ARM_B : ARM_B + 3], -1.0)):
+        if body < count:
+            x, y, z = arm
+            cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+            result[:, 6 * body : 6 * body + 6] = sign * np.hstack([np.eye(3), -cross])
+    return result
+
+
+def mass_matrix(masses, inverses):
+    """Return the (6 m, 6 m) matrix of masses and inertias."""
+    result = np.zeros((6 * len(masses), 6 * len(masses)))
+    for i, (mass, inverse) in enumerate(zip(masses[:, 0], inverses, strict=False)):
+        result[6 * i : 6 * i + 3, 6 * i : 6 * i + 3] = mass * np.eye(3)
+        result[6 * i + 3 : 6 * i + 6, 6 * i + 3 : 6 * i + 6] = np.linalg.inv(inverse.reshape(3, 3))
+    return result
+
+
+@pytest.mark.kernel
+@pytest.mark.parametrize("seed", range(3))
+def test_step_on_all_laws_solves_the_balance_of_momentum(seed):
+    """M dv = sum of J' dP with dP = R - A J dv, solved as a dense system; laws that stick, slide, pull and do not act among them."""
+    ids, rows, masses, inverses, velocities = network(np.random.default_rng(seed))
+    count = len(masses)
     blocks, work = np.zeros((count + 1, count + 1, 36)), np.zeros((count + 1, WORK_COLUMNS))
+    newton._begin(len(rows), ids, rows, count, masses, inverses, velocities, work)
+    system, load, slopes = mass_matrix(masses, inverses), np.zeros(6 * count), []
+    for pair, row in zip(ids, rows, strict=True):
+        place = jacobian(pair, row, count)
+        newton._linearise(row, 1e-2, *(place @ velocities[:count, :6].ravel()))
+        normal, direction = row[NORMAL : NORMAL + 3], row[SLIDING_DIRECTION : SLIDING_DIRECTION + 3]
+        across = np.eye(3) - np.outer(normal, normal) - np.outer(direction, direction)
+        slope = np.outer(row[FORCE_SLOPE : FORCE_SLOPE + 3], normal) + row[SLIP_SLOPE] * across
+        np.testing.assert_allclose([newton._law_slope(row, *axis) for axis in np.eye(3)], slope.T, atol=1e-9)
+        if not row[FORCE_SLOPE : FORCE_SLOPE + 3].any():
+            slope[:] = 0.0
+        system += place.T @ slope @ place
+        load += place.T @ row[LAW_CHANGE : LAW_CHANGE + 3]
+        slopes.append(row[SLIP_SLOPE])
+    assert len({value > 0.0 for value in slopes}) == 2
+    newton._assemble_laws(len(rows), ids, rows, count, masses, blocks, work)
+    assert newton._factorise_laws(count, blocks, work)
+    newton._law_step(count, blocks, work)
+    np.testing.assert_allclose(work[:count, STEP : STEP + 6].ravel(), np.linalg.solve(system, load), rtol=1e-7, atol=1e-10)
+
+
+@pytest.mark.kernel
+@pytest.mark.parametrize("seed", range(3))
+def test_step_of_convex_function_solves_its_hessian(seed):
+    """Gradient by the sum of momenta and impulses, Hessian by differences of that, and the step that solves both as a dense system."""
+    ids, rows, masses, inverses, velocities = network(np.random.default_rng(seed))
+    count = len(masses)
+    blocks, work = np.zeros((count + 1, count + 1, 36)), np.zeros((count + 1, WORK_COLUMNS))
+    free, mass = velocities[:count, :6].ravel().copy(), mass_matrix(masses, inverses)
+    places = [jacobian(pair, row, count) for pair, row in zip(ids, rows, strict=True)]
+    free -= np.linalg.solve(mass, sum(place.T @ row[IMPULSE : IMPULSE + 3] for place, row in zip(places, rows, strict=True)))
     newton._begin(len(rows), ids, rows, count, masses, inverses, velocities, work)
     newton._errors(len(rows), ids, rows, count, masses, inverses, velocities, work)
 
     def gradient(change):
-        moved = velocities.copy()
-        moved[:count, :6] += change.reshape(count, 6)
-        for (a, b, *_), row in zip(ids, rows, strict=True):
-            row[TRIAL_SLIP : TRIAL_SLIP + 3] = point_velocity(a, row[ARM_A : ARM_A + 3], moved) - point_velocity(
-                b, row[ARM_B : ARM_B + 3], moved
-            )
-        newton._assemble(len(rows), ids, rows, count, masses, moved, blocks, work)
-        return work[:count, GRADIENT : GRADIENT + 6].ravel().copy()
+        moved = velocities[:count, :6].ravel() + change
+        impulses = [newton._penalty_impulse(row, *(place @ moved), True)[:3] for place, row in zip(places, rows, strict=True)]
+        return mass @ (moved - free) - sum(place.T @ impulse for place, impulse in zip(places, impulses, strict=True))
 
+    newton._assemble(len(rows), ids, rows, count, masses, velocities, blocks, work)
+    here = gradient(np.zeros(6 * count))
+    np.testing.assert_allclose(work[:count, GRADIENT : GRADIENT + 6].ravel(), here, rtol=1e-9, atol=1e-9)
     step = 1e-7
-    expected = np.array([(gradient(step * axis) - gradient(-step * axis)) / (2.0 * step) for axis in np.eye(6 * count)])
-    gradient(np.zeros(6 * count))
-    hessian = np.triu(blocks[:count, :count].reshape(count, count, 6, 6).transpose(0, 2, 1, 3).reshape(6 * count, 6 * count))
-    np.testing.assert_allclose(hessian + np.triu(hessian, 1).T, expected, atol=1e-6 * np.abs(expected).max())
+    hessian = np.array([(gradient(step * axis) - gradient(-step * axis)) / (2.0 * step) for axis in np.eye(6 * count)])
+    assert newton._factorise(count, blocks, work)
+    newton._newton_step(count, blocks, work)
+    np.testing.assert_allclose(hessian @ work[:count, STEP : STEP + 6].ravel(), -here, rtol=1e-5, atol=1e-5 * np.abs(here).max())
 
 
 @pytest.mark.parametrize("by_course", [True, False])
