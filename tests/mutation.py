@@ -6,6 +6,7 @@ plain Python first, with the JIT only if a mutant survives that. It takes half a
 """
 
 import argparse
+import functools
 import os
 import random
 import re
@@ -15,6 +16,8 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import seisblock
 
 # cosmic_ray is imported where it is used: it belongs to no extra, and doctests import this module
 if TYPE_CHECKING:
@@ -49,7 +52,8 @@ OPERATORS = (
 TIMEOUT_S = 400.0
 SLOW_FOLDERS = {"benchmarks", "papers", "fuzz", "validation"}
 PRINTED = ("papers/test_evidence.py", "papers/test_paper_items.py", "test_pages.py")
-"""Tests of many models and studies at once, run last: evidence, tables of papers, output on pages."""
+"""Tests of many models and studies at once, run last: evidence, tables of papers, output on pages. A change of a file on which kernels
+depend would have them all compiled again: its numbers are looked for in the tests of its model."""
 
 
 def mutation_specs(path: Path) -> list["MutationSpec"]:
@@ -80,6 +84,14 @@ def mutation_specs(path: Path) -> list["MutationSpec"]:
     return specs
 
 
+@functools.cache
+def compiled_sources() -> set[Path]:
+    """Return the files whose change has the kernels compiled again."""
+    from seisblock._jit.cache import kernel_sources
+
+    return {ROOT / "seisblock" / path.relative_to(Path(seisblock.__file__).parent) for path in kernel_sources()}
+
+
 def select_tests(module: Path) -> list[str]:
     """Return the tests of a module: its doctests, the files that import it, then those that concern its model, format or study."""
     folder, name, stem = module.parts[1], module.parts[2], module.stem
@@ -89,13 +101,11 @@ def select_tests(module: Path) -> list[str]:
     texts = {path: path.read_text(encoding="utf-8") for path in sorted((ROOT / "tests").rglob("test_*.py"))}
     texts = {path: text for path, text in texts.items() if not SLOW_FOLDERS & set(path.parts)}
     direct = [path for path, text in texts.items() if any(line in text for line in imports)]
+    is_compiled = ROOT / module in compiled_sources()
     if folder == "models":
         named = [path for path, text in texts.items() if {"models", "properties"} & set(path.parts)]
         named = [path for path in named if f"models.{name}." in texts[path] or name in str(path.relative_to(ROOT))]
-        # numbers of kernels are not looked for in printed answers
-        printed = [
-            path for path in texts if "cli" in path.parts and name in path.stem and "@kernel" not in (ROOT / module).read_text("utf-8")
-        ]
+        printed = [path for path in texts if "cli" in path.parts and name in path.stem and not is_compiled]
         nearby = [*named, *printed]
     elif name == "formats":
         nearby = [path for path, text in texts.items() if "readers" in path.parts and (stem.split("_")[0] in text or "FORMATS" in text)]
@@ -108,7 +118,7 @@ def select_tests(module: Path) -> list[str]:
         ]
         nearby += [] if folder != "readers" or direct else [path for path in texts if "readers" in path.parts]
     files = list(dict.fromkeys([*direct, *nearby])) or [ROOT / "tests" / folder]
-    files += [] if folder == "readers" else [ROOT / "tests" / name for name in PRINTED]
+    files += [] if folder == "readers" or is_compiled else [ROOT / "tests" / name for name in PRINTED]
     return [str(module), *(str(path.relative_to(ROOT)) for path in files)]
 
 
@@ -119,7 +129,7 @@ def killing_test(spec: "MutationSpec") -> str | None:
 
     command = f"{sys.executable} -m pytest -q -x -p no:cacheprovider --benchmark-disable"
     stages = [("0", "not slow")]
-    if "@kernel" in (ROOT / spec.module_path).read_text(encoding="utf-8"):
+    if ROOT / spec.module_path in compiled_sources():
         stages.insert(0, ("1", "kernel and not slow"))
     for disabled, markers in stages:
         os.environ["NUMBA_DISABLE_JIT"] = disabled

@@ -13,7 +13,6 @@ from seisblock.models.stack.arrays import pile_arrays
 from seisblock.models.stack.constraint_row import (
     ARM_A,
     ARM_B,
-    BILATERAL,
     CONE_CENTRE,
     FORCE_SLOPE,
     IMPULSE,
@@ -26,6 +25,10 @@ from seisblock.models.stack.constraint_row import (
     SLIDING_DIRECTION,
     SLIP_SLOPE,
     VELOCITY_COLUMNS,
+    WI,
+    W,
+    apply_impulses,
+    relative_velocity,
     set_delassus_block,
 )
 from seisblock.models.stack.newton import GRADIENT, STEP, WORK_COLUMNS, solve_newton
@@ -33,6 +36,7 @@ from seisblock.models.stack.pgs import solve_pgs
 from seisblock.models.stack.recorder import SOLVED, UNCONVERGED
 from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
+from tests.models.contact_network import jacobian, mass_matrix, network
 from tests.models.shaken_piles import shaking
 
 TOLERANCE = 1e-5
@@ -132,54 +136,21 @@ def test_slope_of_law_is_derivative_of_projected_impulse(state):
     np.testing.assert_allclose(newton._law_slope(row, *velocity), 0.0, atol=1e-12)
 
 
-def network(rng, mu=0.4):
-    """Return contact bodies, rows, masses, inverse inertias and velocities of five stones that touch in both orders, and the ground.
-
-    Three contacts each, in random directions; one is bilateral, one does not act.
-    """
-    pairs, count = ((0, 5), (1, 0), (1, 2), (3, 0), (2, 5), (2, 3), (4, 1)), 5
-    ids, rows = np.zeros((3 * len(pairs), 8), dtype=np.int64), np.zeros((3 * len(pairs), ROW_COLUMNS))
-    masses, inverses = np.zeros((count, 19)), np.zeros((count + 1, 9))
-    masses[:, 0] = MASS * rng.uniform(0.2, 1.0, count)
-    for i in range(count):
-        root = rng.normal(size=(3, 3))
-        inverses[i] = ((root @ root.T + np.eye(3)) / masses[i, 0]).ravel()
-    velocities = np.zeros((count + 1, VELOCITY_COLUMNS))
-    velocities[:count, :6] = rng.normal(0.0, 0.3, (count, 6))
-    for p, pair in enumerate(pairs):
-        distance, normal = rng.normal(size=3), rng.normal(size=3)
-        normal /= np.linalg.norm(normal)
-        for k in range(3 * p, 3 * p + 3):
-            row, ids[k, :2] = rows[k], pair
-            row[ARM_B : ARM_B + 3] = rng.normal(size=3)
-            row[ARM_A : ARM_A + 3] = row[ARM_B : ARM_B + 3] + distance
-            row[NORMAL : NORMAL + 3], row[MU] = normal, mu
-            slip = np.cross(normal, rng.normal(size=3))
-            row[CONE_CENTRE : CONE_CENTRE + 3] = 0.1 * slip
-            row[IMPULSE : IMPULSE + 3] = rng.uniform(1.0, 5.0) * (normal + 0.3 * rng.uniform() * slip)
-            set_delassus_block(*pair, count, masses, inverses, row)
-    rows[4, BILATERAL], rows[7, MIN_NORMAL_VELOCITY] = 1.0, -math.inf
-    return ids, rows, masses, inverses, velocities
-
-
-def jacobian(ids, row, count):
-    """Return the (3, 6 m) matrix that turns the velocities of the bodies into the relative velocity of a contact."""
-    result = np.zeros((3, 6 * count))
-    for body, arm, sign in ((ids[0], row[ARM_A : ARM_A + 3], 1.0), (ids[1], row[ARM_B : ARM_B + 3], -1.0)):
-        if body < count:
-            x, y, z = arm
-            cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-            result[:, 6 * body : 6 * body + 6] = sign * np.hstack([np.eye(3), -cross])
-    return result
-
-
-def mass_matrix(masses, inverses):
-    """Return the (6 m, 6 m) matrix of masses and inertias."""
-    result = np.zeros((6 * len(masses), 6 * len(masses)))
-    for i, (mass, inverse) in enumerate(zip(masses[:, 0], inverses, strict=False)):
-        result[6 * i : 6 * i + 3, 6 * i : 6 * i + 3] = mass * np.eye(3)
-        result[6 * i + 3 : 6 * i + 6, 6 * i + 3 : 6 * i + 6] = np.linalg.inv(inverse.reshape(3, 3))
-    return result
+@pytest.mark.kernel
+def test_contacts_respond_as_the_dense_system():
+    """Delassus block J M^-1 J', its inverse, relative velocity J v, and M^-1 J' p of impulses on both bodies."""
+    ids, rows, masses, inverses, velocities = network(np.random.default_rng(7))
+    count = len(masses)
+    inverse, before = np.linalg.inv(mass_matrix(masses, inverses)), velocities[:count, :6].ravel().copy()
+    places = [jacobian(pair, row, count) for pair, row in zip(ids, rows, strict=True)]
+    for pair, row, place in zip(ids, rows, places, strict=True):
+        np.testing.assert_allclose(row[W : W + 9].reshape(3, 3), place @ inverse @ place.T, rtol=1e-9)
+        np.testing.assert_allclose(row[WI : WI + 9].reshape(3, 3) @ row[W : W + 9].reshape(3, 3), np.eye(3), atol=1e-9)
+        np.testing.assert_allclose(relative_velocity(*pair[:2], row, velocities), place @ before, rtol=1e-9)
+    apply_impulses(len(rows), ids, rows, count, masses, 0.7, velocities)
+    change = 0.7 * inverse @ sum(place.T @ row[IMPULSE : IMPULSE + 3] for place, row in zip(places, rows, strict=True))
+    np.testing.assert_allclose(velocities[:count, :6].ravel(), before + change, rtol=1e-9)
+    assert not velocities[count].any()
 
 
 @pytest.mark.kernel

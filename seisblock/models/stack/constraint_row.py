@@ -69,8 +69,8 @@ VELOCITY_COLUMNS = 15
 """A body's velocity and spin, change of the spin at constant angular momentum, rad/s^2, and velocity and spin before the sweeps (6)."""
 
 
-@kernel(_t.void(_t.int64, VECTOR, MATRIX, MATRIX, _t.int64, _t.float64, VECTOR), inline=True)
-def _add_body_response(body, arm, inertias, inverses, spins, sign, row):
+@kernel(_t.void(_t.int64, VECTOR, MATRIX, MATRIX, _t.int64, VECTOR), inline=True)
+def _add_body_response(body, arm, inertias, inverses, spins, row):
     """Add the response of a body to a unit impulse at `arm` to a row: velocity of the point, and spin."""
     x, y, z = arm[0], arm[1], arm[2]
     # spin per unit impulse p: J^-1 (arm x p)
@@ -96,9 +96,9 @@ def set_delassus_block(a, b, ground, inertias, inverses, row):
     for i in range(W, IMPULSE):
         row[i] = 0.0
     if a != ground:
-        _add_body_response(a, row[ARM_A:], inertias, inverses, SPIN_A, 1.0, row)
+        _add_body_response(a, row[ARM_A:], inertias, inverses, SPIN_A, row)
     if b != ground:
-        _add_body_response(b, row[ARM_B:], inertias, inverses, SPIN_B, 1.0, row)
+        _add_body_response(b, row[ARM_B:], inertias, inverses, SPIN_B, row)
     # inverse of the symmetric 3 x 3 block by cofactors
     w00, w01, w02 = row[W], row[W + 1], row[W + 2]
     w11, w12, w22 = row[W + 4], row[W + 5], row[W + 8]
