@@ -11,6 +11,7 @@ import pytest
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate
+from seisblock.dynamics.hybrid import no_skip
 from seisblock.models.uplift.batch import uplift_many
 from seisblock.models.uplift.constants import ALL_CORNERS, GLUED, F, W, X
 from seisblock.models.uplift.harmonic import uplift_thresholds
@@ -321,3 +322,32 @@ def test_undamped_minima_are_the_frequencies_of_excited_modes(rho_deg, modes):
     minima = uplift_minima(body, rho_deg=rho_deg)
     assert [m.frequency_ratio for m in minima] == pytest.approx([omega[i] / omega[0] for i in modes], rel=1e-9)
     assert [m.acceleration_ratio for m in minima] == [0.0] * len(modes)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_propagation_from_sample_to_sample_equals_the_series(seed):
+    """States at every sample, extrema with their times, and events are those of the power series, in and out of contact, also if glued."""
+    rng = np.random.default_rng(seed)
+    series, lifted = dataclasses.replace(UPLIFT, skip=no_skip, propagates=False), 0
+    for k in range(15):
+        body = SpringBlock.from_frequency(
+            *rng.uniform(0.4, 1.0, 2),
+            rng.uniform(0.8, 2.0),
+            frequency_vertical=rng.uniform(4.0, 25.0),
+            beta=0.7,
+            damping=0.1 * rng.uniform(),
+        )
+        rows = [np.convolve(row, np.hanning(int(rng.integers(3, 20))), "same") for row in rng.normal(size=(3, 300))]
+        motion = Motion(np.array([rng.uniform(0.5, 8.0) * row / np.abs(row).max() for row in rows]), 0.01)
+        mode = GLUED if k % 3 == 2 else ALL_CORNERS
+        gains = (1.0, 0.0, 1.0) if k % 2 else (1.0, 0.4, 0.0)
+        p, start = parameters([body], G, motion.dt)[0], static_state(body, G)
+        fast, slow = (integrate(model, motion, p, start, mode, gains=gains) for model in (UPLIFT, series))
+        assert fast.n_events == slow.n_events
+        scale = np.abs(slow.states).max(axis=0)
+        np.testing.assert_allclose(fast.final, slow.final, rtol=1e-8, atol=1e-9 * scale.max())
+        # of glued corners only the largest rise is used
+        rows, columns = (slice(4), slice(2)) if mode == GLUED else (slice(None), slice(None))
+        np.testing.assert_allclose(fast.extrema[rows, columns], slow.extrema[rows, columns], rtol=1e-7, atol=1e-10)
+        lifted += slow.n_events > 0
+    assert lifted >= 5
