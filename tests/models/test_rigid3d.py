@@ -359,7 +359,7 @@ def newton(count, mass, inertia, momentum, contacts, impulses, mu, velocity):
 def sweeps(count, mass, inertia, momentum, contacts, impulses, mu, velocity):
     """Solve contacts by sweeps, which take over where Newton's method fails."""
     inverse = np.linalg.inv(inertia).ravel()
-    return _sweep(20000, count, mass, inertia.ravel(), momentum, contacts, impulses, mu, 1e-12, velocity, inverse)
+    return _sweep(20000, count, mass, momentum, contacts, impulses, mu, 1e-12, velocity, inverse)
 
 
 @pytest.mark.kernel

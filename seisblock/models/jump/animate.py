@@ -61,7 +61,7 @@ def jump_animation(response: Response[JumpOutcome], times: FloatArray, *, gal: b
             bodies=(body,),
             floors=tuple(_floors(block, drop, float(np.abs(x).max()))),
             trails=trails,
-            close=_close_up(feet, float(x[-1]), drop),
+            close=_close_up(feet, float(x[-1])),
         ),
         strips=(
             ground_strip(motion, (-level, level), gal=gal),
@@ -95,7 +95,7 @@ def _floors(block: TwoLayerBlock, drop: float, reach: float) -> list[FloatArray]
     return [ground, *(rectangle(side * half - stone, side * half + stone, -drop, 0.0) for side in (-1.0, 1.0))]
 
 
-def _close_up(feet: list[tuple[FloatArray, FloatArray]], displacement: float, drop: float) -> Box:
+def _close_up(feet: list[tuple[FloatArray, FloatArray]], displacement: float) -> Box:
     """Return the window around the path of the foot on the side of the displacement."""
     x, z = feet[1] if displacement >= 0.0 else feet[0]
     size = 1.2 * max(float(np.ptp(x)), float(np.ptp(z)), 0.02)

@@ -65,8 +65,8 @@ def initial_angular_acceleration(side, theta, omega, turn, rate, p):
     return turn
 
 
-@kernel(_t.void(_t.float64, _t.int64, _t.float64, VECTOR, MATRIX, MATRIX), inline=True)
-def rotation_slacks(side, degree, swing, p, c, g):
+@kernel(_t.void(_t.float64, _t.int64, _t.float64, MATRIX, MATRIX), inline=True)
+def rotation_slacks(side, degree, swing, c, g):
     """Write the guards of the impact of the other corner and of the tilt pi/2.
 
     `swing` bounds the change of the tilt within the step, rad; a guard out of its reach is switched off.
@@ -193,5 +193,5 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
     freeze_states(c, SPEED, WORK)
     freeze_states(c, FRICTION, y.size)
     # the sum of all absolute terms bounds theta' over the step; 1 % covers the truncated ones
-    rotation_slacks(side, degree, 1.01 * size * dt, p, c, g)
+    rotation_slacks(side, degree, 1.01 * size * dt, c, g)
     return degree

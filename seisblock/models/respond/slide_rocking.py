@@ -151,5 +151,5 @@ def slide_rock_series(right, s, y, f, p, order, c, g):
         g[CONE, 0] += 1.0 - MIN_CONE
     freeze_states(c, GAP_LEFT, PATH)
     freeze_states(c, LOSS, y.size)
-    rotation_slacks(side, degree, 1.01 * size * dt, p, c, g)
+    rotation_slacks(side, degree, 1.01 * size * dt, c, g)
     return degree

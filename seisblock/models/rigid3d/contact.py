@@ -205,8 +205,8 @@ def _invert(inertia, out, scratch, change):
             out[3 * i + k] = change[i]
 
 
-@kernel(_t.boolean(_t.int64, _t.int64, _t.float64, VECTOR, VECTOR, MATRIX, MATRIX, _t.float64, _t.float64, VECTOR, VECTOR))
-def _sweep(sweeps, count, mass, inertia, momentum, contacts, impulses, mu, tolerance, velocity, inverse):
+@kernel(_t.boolean(_t.int64, _t.int64, _t.float64, VECTOR, MATRIX, MATRIX, _t.float64, _t.float64, VECTOR, VECTOR))
+def _sweep(sweeps, count, mass, momentum, contacts, impulses, mu, tolerance, velocity, inverse):
     """Projected Gauss-Seidel from the given impulses, forwards and backwards in turn; return whether it converged ([Jean1999]_)."""
     # start from the velocities that belong to the given impulses
     t0, t1, t2 = momentum[3], momentum[4], momentum[5]
@@ -278,7 +278,7 @@ def _solve(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, ve
         # Newton's iterations overwrite the impulses; the sweeps continue from their own
         for c in range(count):
             impulses[c, 0], impulses[c, 1], impulses[c, 2] = impulses[c, 10], impulses[c, 11], impulses[c, 12]
-        if _sweep(sweeps, count, mass, inertia, momentum, contacts, impulses, mu, tolerance, velocity, inverse):
+        if _sweep(sweeps, count, mass, momentum, contacts, impulses, mu, tolerance, velocity, inverse):
             return True
         for c in range(count):
             impulses[c, 10], impulses[c, 11], impulses[c, 12] = impulses[c, 0], impulses[c, 1], impulses[c, 2]
@@ -288,7 +288,7 @@ def _solve(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, ve
     # not converged: impulses of the last sweeps, with the velocity that belongs to them
     for c in range(count):
         impulses[c, 0], impulses[c, 1], impulses[c, 2] = impulses[c, 10], impulses[c, 11], impulses[c, 12]
-    return _sweep(1, count, mass, inertia, momentum, contacts, impulses, mu, tolerance, velocity, inverse)
+    return _sweep(1, count, mass, momentum, contacts, impulses, mu, tolerance, velocity, inverse)
 
 
 @kernel(_t.boolean(_t.int64, _t.float64, VECTOR, VECTOR, MATRIX, MATRIX, _t.float64, _t.float64, VECTOR, MATRIX, VECTOR, VECTOR))

@@ -167,8 +167,8 @@ def _track(time, has_landed, count, body, scratch):
             ledger[UP_X], ledger[UP_Y] = r[2], r[5]
 
 
-@kernel(_t.float64(_t.int64, BODY, SCRATCH))
-def _clearance(count, body, scratch):
+@kernel(_t.float64(BODY, SCRATCH))
+def _clearance(body, scratch):
     """Return the smallest height of the vertices of `trial` that are not in contact, above a quarter of the touching gap, m."""
     y, vertices = scratch.trial, body.vertices
     a, b, c, d = y[Q], y[Q + 1], y[Q + 2], y[Q + 3]
@@ -252,7 +252,7 @@ def _advance(motion, dt, s, start, body, scratch):
                 if ledger[PATH] + path > margin:
                     # vertices that were far away may reach the ground
                     list_near(y, margin if path <= margin else math.inf, body, scratch)
-            value = _clearance(count, body, scratch)
+            value = _clearance(body, scratch)
             if attempt == 0:
                 # no free vertex has come below the ground
                 if value >= -0.25 * touching:

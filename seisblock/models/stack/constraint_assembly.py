@@ -58,8 +58,8 @@ FROM_JOINT, FROM_PAIR = range(2)
 """Kinds of contact memory: a point of a joint, or a point of a pair of boxes."""
 
 
-@kernel(_t.int64(_t.int64, _t.int64, _t.int64, VECTOR, _t.float64, _t.float64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
-def add_contact(count, c, p, slot, gap, max_gap, k, bodies, dt, pile, memory):
+@kernel(_t.int64(_t.int64, _t.int64, _t.int64, VECTOR, _t.float64, _t.float64, VECTOR, MATRIX, LAYOUT, MEMORY))
+def add_contact(count, c, p, slot, gap, max_gap, k, bodies, pile, memory):
     """Append the constraint row of a contact unless its gap cannot close within the step; return the number of rows."""
     # the gap cannot close within the step, or the rows are full
     if gap > max_gap or count >= memory.constraint_rows.shape[0]:

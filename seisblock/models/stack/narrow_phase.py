@@ -85,7 +85,7 @@ def _contacts_joint_points(count, j, rel, bodies, dt, pile, memory):
             slot[POSITION + 5] = -sigma
             count = register_slot(
                 count,
-                add_contact(count, c, p, slot, -depth, max_gap, k[POINT:], bodies, dt, pile, memory),
+                add_contact(count, c, p, slot, -depth, max_gap, k[POINT:], bodies, pile, memory),
                 FROM_JOINT,
                 j,
                 o,
@@ -96,8 +96,8 @@ def _contacts_joint_points(count, j, rel, bodies, dt, pile, memory):
     return count
 
 
-@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
-def _contacts_box_ground(count, pair, rel, max_gap, bodies, dt, pile, memory):
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, LAYOUT, MEMORY))
+def _contacts_box_ground(count, pair, rel, max_gap, bodies, pile, memory):
     """Add rows for the corners of a box that may reach the ground; return the number of rows."""
     c, p = pile.pairs[pair, 0], pile.pairs[pair, 1]
     slots, axis = memory.corner_slots[pair, 0], memory.scratch[22]
@@ -114,13 +114,13 @@ def _contacts_box_ground(count, pair, rel, max_gap, bodies, dt, pile, memory):
         y0 = rel[9] + rel[0] * r[0] + rel[1] * r[1] + rel[2] * r[2]
         y1 = rel[10] + rel[3] * r[0] + rel[4] * r[1] + rel[5] * r[2]
         store_point(slots[i], y0, y1, y2, axis)
-        new_count = add_contact(count, c, p, slots[i], gap, max_gap, pile.pair_constants[pair], bodies, dt, pile, memory)
+        new_count = add_contact(count, c, p, slots[i], gap, max_gap, pile.pair_constants[pair], bodies, pile, memory)
         count = register_slot(count, new_count, FROM_PAIR, pair, 0, i, slots[i], memory.contact_ids)
     return count
 
 
-@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
-def _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory):
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, LAYOUT, MEMORY))
+def _contacts_box_box(count, pair, rel, max_gap, bodies, pile, memory):
     """Add rows for the contact manifold of two boxes; return the number of rows."""
     c, p, k, scratch = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.scratch
     slots, old_slots, axis, candidates = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], scratch[29], scratch[4:20]
@@ -134,7 +134,7 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory):
         if edges_cross(rel, c, p, pile, axis, scratch, candidates[0]):
             store_point(slots[0], candidates[0, 0], candidates[0, 1], candidates[0, 2], axis)
             match_point(slots[0], old_slots, max_points)
-            new_count = add_contact(count, c, p, slots[0], gap, max_gap, k, bodies, dt, pile, memory)
+            new_count = add_contact(count, c, p, slots[0], gap, max_gap, k, bodies, pile, memory)
             count = register_slot(count, new_count, FROM_PAIR, pair, 0, 0, slots[0], memory.contact_ids)
         # the first slot belongs to the crossing of the edges
         first_slot = 1
@@ -147,13 +147,13 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory):
         slot = slots[first_slot + i]
         store_point(slot, candidates[i, 0], candidates[i, 1], candidates[i, 2], axis[FACE_AXIS:])
         match_point(slot, old_slots, max_points)
-        new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, dt, pile, memory)
+        new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, pile, memory)
         count = register_slot(count, new_count, FROM_PAIR, pair, 0, first_slot + i, slot, memory.contact_ids)
     return count
 
 
-@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
-def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memory):
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, LAYOUT, MEMORY))
+def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, pile, memory):
     """Add rows for the rim points of a cylinder that may reach the ground; return the number of rows."""
     c, p, k = pile.pairs[pair, 0], pile.pairs[pair, 1], pile.pair_constants[pair]
     slots, old_slots, ground = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], bodies[bodies.shape[0] - 1]
@@ -183,7 +183,7 @@ def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memor
                 match_point(rim[q], old_rim, 4)
         for q in range(4):
             slot = rim[q]
-            new_count = add_contact(count, c, p, slot, slot[POSITION + 2] - pile.boxes[p, 2], max_gap, k, bodies, dt, pile, memory)
+            new_count = add_contact(count, c, p, slot, slot[POSITION + 2] - pile.boxes[p, 2], max_gap, k, bodies, pile, memory)
             # a point too far away adds no row
             if new_count > count:
                 set_rim_contact(q == 0, sine, radius, axes, ground, memory.constraint_rows[count])
@@ -191,8 +191,8 @@ def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memor
     return count
 
 
-@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
-def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, dt, pile, memory):
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, LAYOUT, MEMORY))
+def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, pile, memory):
     """Add rows for the contact manifold of a cylinder's face and another face; return the number of rows.
 
     Return -1, which leaves the pair to the box-on-box test, if the outlines do not overlap in plan, or if stones that touched as boxes
@@ -239,7 +239,7 @@ def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, dt, pile, memory)
         slot = slots[i]
         if not is_redistributed:
             match_point(slot, old_slots, MAX_SHARED_POINTS)
-        new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, dt, pile, memory)
+        new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, pile, memory)
         if new_count > count:
             set_rim_contact(candidates[i, IS_LOWEST] > 0.0, sine, up * radius, axes, frame, memory.constraint_rows[count])
         count = register_slot(count, new_count, FROM_PAIR, pair, 0, i, slot, memory.contact_ids)
@@ -264,14 +264,14 @@ def _contacts_pair(count, pair, bodies, dt, pile, memory):
     relative_state(c, p, bodies, boxes, pile.owner, memory.scratch[2:4], rel)
     max_gap, is_left_by_grid = max_approach(dt, memory), memory.pair_states[pair] == GRID_PAIR
     if on_ground and pile.rims[c, 0, RADIUS] > 0.0:
-        count = _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memory)
+        count = _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, pile, memory)
     elif on_ground:
-        count = _contacts_box_ground(count, pair, rel, max_gap, bodies, dt, pile, memory)
+        count = _contacts_box_ground(count, pair, rel, max_gap, bodies, pile, memory)
     else:
         is_round = pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] > 0.0
         if is_round and faces_opposed(rel, boxes[c], boxes[p], pile.rims[c], pile.rims[p]) and _faces_aligned(rel, c, p, pile):
-            faces = _contacts_cylinder_face(count, pair, rel, max_gap, bodies, dt, pile, memory)
-        count = faces if faces >= 0 else _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory)
+            faces = _contacts_cylinder_face(count, pair, rel, max_gap, bodies, pile, memory)
+        count = faces if faces >= 0 else _contacts_box_box(count, pair, rel, max_gap, bodies, pile, memory)
     memory.pair_states[pair] = FACE_PAIR if faces >= 0 else BOX_PAIR
     restitution = pile.pair_constants[pair, RESTITUTION]
     if is_left_by_grid:

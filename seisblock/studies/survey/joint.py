@@ -86,7 +86,7 @@ def joint_estimate(
         single += weight * values
     low, middle, high = _quantiles(grid, total, settings.level)
     apart = tuple(estimate_shaking(survey, frequency, settings) for _, survey in surveys)
-    agreement = _agreement(single / single.max(axis=1, keepdims=True), grid)
+    agreement = _agreement(single / single.max(axis=1, keepdims=True))
     names = [name for name, _ in surveys]
     pairs = [
         (names[i], names[j])
@@ -104,7 +104,7 @@ def _quantiles(grid: FloatArray, value: FloatArray, level: float) -> tuple[float
     return low, middle, high
 
 
-def _agreement(values: FloatArray, grid: FloatArray) -> float:
+def _agreement(values: FloatArray) -> float:
     """Return the probability of a likelihood ratio as large: one shaking against one per cemetery (chi-squared, Wilks)."""
     from scipy.special import chdtrc
 
