@@ -100,6 +100,15 @@ def test_lost_decimal_point_is_flagged(layout, tmp_path):
     assert "point" in kinds and re.search(r"3 number\(s\) without a decimal point \(first: -0187 in line \d+\)", text)
 
 
+@pytest.mark.parametrize(("count", "lost", "flagged"), [(40, 1, True), (40, 2, False), (100, 2, True), (100, 3, False)])
+def test_few_lines_without_decimal_points_are_flagged(count, lost, flagged, tmp_path):
+    """One line, or 2 % of them: more belong to a program that prints whole numbers without a point."""
+    rows = _rows(count)
+    for k in range(lost):
+        rows = _lost(rows, at=17 + 5 * k)
+    assert ("point" in doubts(tmp_path, LAYOUTS["table"](rows))[0]) == flagged
+
+
 def test_integers_in_float_table_are_not_flagged(tmp_path):
     """Programs that print 12 for 12.000 print 12.5 for 12.500, too."""
     rows = [f"{i / 100:g},{round(0.125 * i, 3):g}" for i in range(200)]

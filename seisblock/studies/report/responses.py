@@ -71,8 +71,7 @@ class BodyResponses:
     @property
     def assessment(self) -> Assessment:
         """Assessment of the body under any of the directions."""
-        parts = [effect.assessment for effect in self.effects if effect.assessment is not None]
-        return parts[0].assessment if len(parts) == 1 else assess_object(parts)
+        return assess_object([effect.assessment for effect in self.effects if effect.assessment is not None])
 
 
 @dataclass(frozen=True, eq=False)
