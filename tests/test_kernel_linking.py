@@ -1,5 +1,6 @@
 """Kernels called by other kernels are linked unoptimised and optimised once, in the kernel that Python calls."""
 
+import gc
 import re
 import subprocess
 import sys
@@ -11,14 +12,17 @@ from pathlib import Path
 import numba
 import numpy as np
 import pytest
+from numba.core.base import BaseContext
 from numba.core.types import functions
 from numba.core.typing.typeof import typeof
 
 from seisblock import _jit
-from seisblock._jit.internals import UnoptimizedLibrary, memoize_typing
+from seisblock._jit import internals
+from seisblock._jit.internals import UnoptimizedLibrary, fast_compilation
 
 _t = _jit.types()
 SIGNATURE = _t.float64(_t.float64, _t.float64)
+EMPTY, FULL = 3, 7
 
 
 @pytest.fixture
@@ -107,31 +111,65 @@ def infer(**options):
     return str(context.resolve_value_type(np.add).get_call_type(context, (typeof(1.0), typeof(1)), {}, **options))
 
 
-def test_memoize_typing_infers_a_signature_once_per_block(inferences):
+def test_fast_compilation_infers_a_signature_once(inferences, monkeypatch):
+    monkeypatch.setattr(internals, "_signatures", {})
     infer()
     del inferences[:]
-    with memoize_typing():
+    with fast_compilation():
         signatures = {infer(), infer()}
-        assert len(inferences) == 1
-        with memoize_typing():
+        with fast_compilation():
             signatures |= {infer(), infer()}
         signatures |= {infer()}
         assert len(inferences) == 1
     signatures |= {infer(), infer()}
     assert len(inferences) == 3
+    with fast_compilation():
+        signatures |= {infer()}
+    assert len(inferences) == 3
     assert signatures == {"(float64, int64) -> float64"}
 
 
-def test_memoize_typing_restores_the_method_of_numba():
+@pytest.mark.parametrize("enabled", [True, False])
+def test_fast_compilation_restores_numba_and_garbage_collection(monkeypatch, enabled):
     """The user's own kernels are compiled by numba alone."""
-    original = _t.Function.get_call_type
-    with pytest.raises(ValueError, match="inside"), memoize_typing():
-        assert _t.Function.get_call_type is not original
+    monkeypatch.setattr(gc, "isenabled", lambda: enabled)
+    calls = []
+    monkeypatch.setattr(gc, "enable", lambda: calls.append("enable"))
+    monkeypatch.setattr(gc, "disable", lambda: calls.append("disable"))
+    methods = _t.Function.get_call_type, BaseContext.get_function
+    with pytest.raises(ValueError, match="inside"), fast_compilation():
+        assert not {_t.Function.get_call_type, BaseContext.get_function}.intersection(methods)
         raise ValueError("inside")
-    assert _t.Function.get_call_type is original
+    assert (_t.Function.get_call_type, BaseContext.get_function) == methods
+    assert calls == (["disable", "enable"] if enabled else [])
 
 
-def test_memoize_typing_passes_unknown_keywords_on_to_numba(monkeypatch):
+def test_fast_compilation_looks_for_extensions_once_per_function(chain, monkeypatch):
+    """Numba would do so at each element of an array."""
+    refreshes = []
+    original = BaseContext.refresh
+    monkeypatch.setattr(BaseContext, "refresh", lambda self: (refreshes.append(1), original(self))[1])
+
+    @_jit.kernel(_t.float64(_t.Array(_t.float64, 1, "C")))
+    def total(a):
+        return a[0] + a[1] + a[2] + a[3]
+
+    assert total(np.arange(4.0)) == 6.0
+    assert len(refreshes) <= 4
+
+
+def test_variable_of_a_kernel_may_be_assigned_two_global_numbers(chain):
+    @_jit.kernel(_t.int64(_t.int64))
+    def status(n):
+        result = EMPTY
+        if n > 0:
+            result = FULL
+        return result
+
+    assert (status(0), status(1)) == (EMPTY, FULL)
+
+
+def test_fast_compilation_passes_unknown_keywords_on_to_numba(monkeypatch):
     """A future numba may call its method with more arguments."""
     received = []
 
@@ -140,7 +178,7 @@ def test_memoize_typing_passes_unknown_keywords_on_to_numba(monkeypatch):
         return "(float64, int64) -> float64"
 
     monkeypatch.setattr(_t.Function, "get_call_type", original)
-    with memoize_typing():
+    with fast_compilation():
         assert {infer(depth=1), infer(depth=1)} == {"(float64, int64) -> float64"}
     assert received == [{"depth": 1}, {"depth": 1}]
 

@@ -51,7 +51,7 @@ class LazyKernel:
         internals = _internals()
         if internals:
             options = {"pipeline_class": internals.KernelCompiler} | options
-        with defer_interrupt(), internals.memoize_typing() if internals else contextlib.nullcontext():
+        with defer_interrupt(), internals.fast_compilation() if internals else contextlib.nullcontext():
             return numba.njit(self._signature, **self._options, **options)(self._function)
 
     @property

@@ -184,7 +184,7 @@ def skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
     """Return the last sample up to which a sticking body stays within both limits of static friction."""
     if mode % LEVEL != STICK:
         return sample
-    s, c = (0.0, 1.0) if mode >= LEVEL else (p[SINE], p[COSINE])
+    sine, cosine = (0.0, 1.0) if mode >= LEVEL else (p[SINE], p[COSINE])
     gain_along, gain_up, mu, weight = gains[ALONG], gains[UP], p[STATIC], p[GRAVITY]
     one_way = p[ONE_WAY] > 0.0
     samples = acceleration.shape[1]
@@ -193,7 +193,7 @@ def skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
         a = gain_along * acceleration[ALONG, k]
         b = weight + (gain_up * acceleration[UP, k] if gain_up != 0.0 else 0.0)
         # both conditions are linear in the input: holding at two samples, they hold between them
-        drive, limit = b * s - a * c, mu * (b * c + a * s)
+        drive, limit = b * sine - a * cosine, mu * (b * cosine + a * sine)
         if not (drive < limit and (one_way or -drive < limit) and limit > 0.0):
             break
         k += 1

@@ -354,9 +354,9 @@ def _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work):
         # an open contact without friction adds no stiffness
         if normal == 0.0 and ratio == 0.0:
             continue
-        k = row[PENALTY]
+        stiffness = row[PENALTY]
         # A = along (n n) + across (1 - n n - d d), d: direction of the slip
-        along, across = (k if normal != 0.0 else 0.0), ratio * k
+        along, across = (stiffness if normal != 0.0 else 0.0), ratio * stiffness
         n0, n1, n2, d0, d1, d2 = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], 0.0, 0.0, 0.0
         # across the slip, friction turns with it; along it, the impulse is at its limit and does not change
         if 0.0 < ratio < 1.0:
@@ -538,10 +538,10 @@ def _linearise(row, proximity, u0, u1, u2):
     The error is the velocity where the contact presses or sticks, or the approach of an open one.
     """
     n0, n1, n2, p0, p1, p2 = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
-    for k in range(3):
-        row[FORCE_SLOPE + k] = 0.0
-        row[SLIDING_DIRECTION + k] = 0.0
-        row[PROJECTED + k] = 0.0
+    for m in range(3):
+        row[FORCE_SLOPE + m] = 0.0
+        row[SLIDING_DIRECTION + m] = 0.0
+        row[PROJECTED + m] = 0.0
     row[SLIP_SLOPE] = 0.0
     row[LAW_CHANGE], row[LAW_CHANGE + 1], row[LAW_CHANGE + 2] = -p0, -p1, -p2
     bound, response = row[MIN_NORMAL_VELOCITY], (row[W] + row[W + 4] + row[W + 8]) / 3.0
@@ -649,11 +649,13 @@ def _add_joint_laws(a, b, ground, row, joint, blocks):
         for j in range(6):
             k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
             for i in range(6):
-                k = joint[6 * i + j] + (y * k2 - z * k1 if i == 3 else z * k0 - x * k2 if i == 4 else x * k1 - y * k0 if i == 5 else 0.0)
+                element = joint[6 * i + j] + (
+                    y * k2 - z * k1 if i == 3 else z * k0 - x * k2 if i == 4 else x * k1 - y * k0 if i == 5 else 0.0
+                )
                 if a == low:
-                    blocks[low, high, 6 * i + j] -= k
+                    blocks[low, high, 6 * i + j] -= element
                 else:
-                    blocks[high, low, 6 * j + i] -= k
+                    blocks[high, low, 6 * j + i] -= element
         # K T is that of row b and column a
         for i in range(6):
             k0, k1, k2 = joint[6 * i], joint[6 * i + 1], joint[6 * i + 2]

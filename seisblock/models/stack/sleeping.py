@@ -240,9 +240,9 @@ def can_support(n, bodies, a0, a1, a2, pile, memory):
         points, s = memory.sleep_states[i, SUPPORT_POINTS], memory.sleep_states[i, SUPPORT_BODY]
         if points == 0:
             continue
-        b, m = bodies[i], pile.inertias[i, MASS]
+        b, mass = bodies[i], pile.inertias[i, MASS]
         # force and moment that bring the stone to rest within the kick; F and T hold what already acts, from the stones above
-        w0, w1, w2 = m * (a0 - b[V] / kick_time), m * (a1 - b[V + 1] / kick_time), m * (a2 - b[V + 2] / kick_time)
+        w0, w1, w2 = mass * (a0 - b[V] / kick_time), mass * (a1 - b[V + 1] / kick_time), mass * (a2 - b[V + 2] / kick_time)
         f0, f1, f2 = w0 - b[F], w1 - b[F + 1], w2 - b[F + 2]
         t0, t1, t2 = -b[L] / kick_time - b[T], -b[L + 1] / kick_time - b[T + 1], -b[L + 2] / kick_time - b[T + 2]
         if not _distribute_load(points, f0, f1, f2, t0, t1, t2, memory.support_points[i]):
