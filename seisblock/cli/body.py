@@ -179,4 +179,5 @@ def _check_subject(scan: str | None, kind: str | None, width: float | None, heig
     elif width is None or height is None:
         raise click.UsageError(gettext("--kind requires --width and --height"))
     else:
-        reject_with("--kind", ["density", "inset", "tolerance", "unit", "up", "facing", "body_name", "step", "gravity"])
+        kept = {"scan", "kind", "width", "height", "out", "quiet", "lang"}
+        reject_with("--kind", [name for parameter in body.params if (name := parameter.name or "") not in kept])

@@ -207,3 +207,12 @@ def test_body_requires_scan_or_kind():
     sizes = ["--kind", "statue", "--width", "1", "--height", "2"]
     for words in ([], ["boulder.ply", "--kind", "statue"], ["--kind", "statue"], [*sizes, "--up", "z"]):
         assert CliRunner().invoke(main, ["body", *words]).exit_code == 2
+
+
+@pytest.mark.parametrize("words", (["--json"], ["--plot", "stone.png"], ["--csv", "stone.csv"], ["--details"]))
+def test_outputs_of_a_scan_are_rejected_with_a_kind(words, tmp_path, monkeypatch):
+    """``body --kind`` prints a body file; it wrote no figure and no JSON, without a word."""
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(main, ["body", "--kind", "statue", "--width", "1", "--height", "2", *words])
+    assert result.exit_code == 2 and f"{words[0]} has no effect with --kind" in " ".join(result.stderr.split())
+    assert not list(tmp_path.iterdir())
