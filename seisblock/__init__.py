@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
-
 import lazy_loader
 
-from seisblock.core import _display
+from seisblock.core.backends import register_backends
 
 __version__ = "0.3.0"
 
 # public names and their types: __init__.pyi; each is imported on first access
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
-_display.register_backend(lambda: importlib.import_module("seisblock.report.html.notebook"))
+register_backends(display="seisblock.report.html.notebook", obspy="seisblock.readers.streams")

@@ -1,50 +1,12 @@
-"""Display hooks: ``plot()`` and ``_repr_html_()`` delegate to :mod:`seisblock.report` without importing it.
-
-Results, records and spectra lie below the plotting code in the import order. ``seisblock/__init__.py`` registers a loader of the
-plotting backend; the loader runs at the first plot or notebook display, so that ``import seisblock`` does not load matplotlib.
-"""
+"""Representations of values: bounded texts, and the figure and HTML of :func:`~seisblock.core.backends.backend`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
-from typing import Any, Protocol
+from typing import Any
 
-
-class Backend(Protocol):
-    """Interface of the plotting and HTML backend."""
-
-    def plot(self, value: Any) -> Any:
-        """Return the ``matplotlib.figure.Figure`` of a value."""
-
-    def html(self, value: Any) -> str:
-        """Return the HTML representation of a value for notebooks."""
-
-    def json_text(self, response: Any) -> str:
-        """Return the JSON document of a response."""
-
-
-_load_backend: Callable[[], Backend] | None = None
-
-
-def register_backend(loader: Callable[[], Backend]) -> None:
-    """Register the function that loads the backend; it is called at the first display."""
-    global _load_backend
-    _load_backend = loader
-
-
-def backend() -> Backend:
-    """Return the registered backend.
-
-    Raises
-    ------
-    RuntimeError
-        If no backend is registered, that is, if a submodule was loaded without ``import seisblock``.
-    """
-    if _load_backend is None:
-        raise RuntimeError("no plotting backend registered: import seisblock first")
-    return _load_backend()
-
+from seisblock.core.backends import backend
 
 MAX_REPR_FIELDS = 5
 """Number of scalar fields shown in a one-line representation."""
@@ -141,7 +103,7 @@ class DisplayMixin:
 
     def _repr_html_(self) -> str:
         """Return the HTML representation."""
-        return backend().html(self)
+        return backend("display").html(self)  # type: ignore[no-any-return]
 
 
 class PlotMixin(DisplayMixin):
@@ -151,4 +113,4 @@ class PlotMixin(DisplayMixin):
 
     def plot(self) -> Any:
         """Return the figure of the value, a ``matplotlib.figure.Figure``."""
-        return backend().plot(self)
+        return backend("display").plot(self)

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 import numpy as np
 
-from seisblock.core._display import DisplayMixin, PlotMixin, backend, summary_repr
+from seisblock.core._display import DisplayMixin, PlotMixin, summary_repr
+from seisblock.core.backends import backend
 from seisblock.core.status import Status
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.core.units import unit_suffix
@@ -285,7 +286,7 @@ class Response(PlotMixin, Generic[Outcome]):
 
     def to_json(self) -> str:
         """Return the JSON document of the response, as the command prints it for one direction without further studies."""
-        return backend().json_text(self)
+        return backend("display").json_text(self)  # type: ignore[no-any-return]
 
     def to_dict(self) -> dict[str, Any]:
         """Return the JSON document of the response as a dictionary; numbers in SI with the unit in each key's name."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
@@ -12,6 +11,7 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin, PlotMixin
+from seisblock.core.backends import backend
 from seisblock.core.errors import ComponentError, KindError, RecordError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import ArrayLike, FloatArray
@@ -232,7 +232,7 @@ class Record(PlotMixin):
         >>> record.network, record.station, record.location, record.channels
         ('XX', 'ABC', '00', {'EW': 'HNE'})
         """
-        return cls._streams().record_from_obspy(stream, inventory, event, **options)  # type: ignore[no-any-return]
+        return backend("obspy").record_from_obspy(stream, inventory, event, **options)  # type: ignore[no-any-return]
 
     def to_obspy(self) -> Any:
         """Return the record as an ObsPy Stream: m/s^2, full channel names, azimuths in ``stats.seisblock``.
@@ -244,12 +244,7 @@ class Record(PlotMixin):
         >>> [(trace.id, trace.stats.seisblock.azimuth_deg) for trace in stream]
         [('.SYN..NS', 0.0), ('.SYN..EW', 90.0), ('.SYN..UD', None)]
         """
-        return self._streams().record_to_obspy(self)
-
-    @staticmethod
-    def _streams() -> Any:
-        # by name, as readers are a higher layer and ObsPy loads slowly
-        return importlib.import_module("seisblock.readers.streams")
+        return backend("obspy").record_to_obspy(self)
 
     @property
     def network(self) -> str:
