@@ -49,7 +49,9 @@ OPERATORS = (
     "core/ReplaceFalseWithTrue",
     "core/NumberReplacer",
 )
-TIMEOUT_S = 400.0
+TIMEOUT_S = 400
+"""Processor time, s, after which a mutant counts as an endless loop; a busy machine must not kill any."""
+
 SLOW_FOLDERS = {"benchmarks", "papers", "fuzz", "validation"}
 PRINTED = ("papers/test_evidence.py", "papers/test_paper_items.py", "test_pages.py")
 """Tests of many models and studies at once, run last: evidence, tables of papers, output on pages. A change of a file on which kernels
@@ -134,8 +136,9 @@ def killing_test(spec: "MutationSpec") -> str | None:
     for disabled, markers in stages:
         os.environ["NUMBA_DISABLE_JIT"] = disabled
         # exit status 5: no test of that kind
-        shell = f"{command} -m '{markers}' {' '.join(select_tests(spec.module_path))}; status=$?; test $status -eq 0 -o $status -eq 5"
-        result = mutate_and_test([spec], f'sh -c "{shell}"', TIMEOUT_S)
+        tests = f"{command} -m '{markers}' {' '.join(select_tests(spec.module_path))}"
+        shell = f"ulimit -t {TIMEOUT_S}; {tests}; status=$?; test $status -eq 0 -o $status -eq 5"
+        result = mutate_and_test([spec], f'sh -c "{shell}"', 20.0 * TIMEOUT_S)
         if result.test_outcome != TestOutcome.SURVIVED:
             failures = re.findall(r"^(?:FAILED|ERROR) (\S+)", result.output or "", re.MULTILINE)
             return failures[0] if failures else str(result.output)[-80:].strip()
@@ -150,6 +153,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=main.__doc__)
     parser.add_argument("--sample", type=int, default=150)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--first", type=int, default=1, help="number of the mutant to begin with, to resume a run or to share it out")
     parser.add_argument("--only", default="", help="part of the module's path")
     parser.add_argument("--skip", action="append", default=[], help="part of the paths of modules to leave out, may be repeated")
     arguments = parser.parse_args()
@@ -164,7 +168,7 @@ def main() -> int:
         tree = Path(folder) / "tree"
         shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", "__pycache__", ".mypy_cache", ".ruff_cache"))
         os.chdir(tree)
-        for number, spec in enumerate(sample, start=1):
+        for number, spec in enumerate(sample[arguments.first - 1 :], start=arguments.first):
             killer = killing_test(spec)
             survivors[spec.module_path.parts[1]] += killer is None
             line = spec.start_pos[0]
@@ -172,8 +176,9 @@ def main() -> int:
             mutant = mutate_code(source, get_operator(spec.operator_name)(), spec.occurrence) or source
             change = f"{source.splitlines()[line - 1].strip()}  ->  {mutant.splitlines()[line - 1].strip()}"
             print(f"{number} {spec.module_path}:{line}", f"SURVIVED: {change}" if killer is None else f"killed by {killer}", flush=True)
-    share = survivors.total() / max(len(sample), 1)
-    print(f"survivors: {dict(survivors)}, {100.0 * share:.0f} % of {len(sample)}; budget {100.0 * BUDGET:.0f} %")
+    count = len(sample) - arguments.first + 1
+    share = survivors.total() / max(count, 1)
+    print(f"survivors: {dict(survivors)}, {100.0 * share:.0f} % of {count}; budget {100.0 * BUDGET:.0f} %")
     return share > BUDGET
 
 
