@@ -12,6 +12,8 @@ from seisblock.models.jump import modes
 from seisblock.models.jump.flight import flight_reset
 from seisblock.models.jump.impact import launch, spin_ratio
 
+pytestmark = pytest.mark.kernel
+
 G = 9.8
 SHORT = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
 LONG = TwoLayerBlock(2.50, 2.08, 1.06, 1.84, 1303.7, 160.0)

@@ -15,6 +15,8 @@ from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Motion
 from tests.models.respond.cases import SLENDER, SQUAT, at_lean, sequence, still_ground
 
+pytestmark = pytest.mark.kernel
+
 UNEQUAL = Block(0.4, 1.0, centroid_offset=0.05, centroid_height=0.6, centroid_inertia=40.0, mass=300.0)
 
 

@@ -13,6 +13,8 @@ from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
 from tests.models.respond.cases import constant_push, sequence
 
+pytestmark = pytest.mark.kernel
+
 
 def start(block, push, *, weight=G, **friction):
     """Return the mode in which a block starts under a constant acceleration of the ground."""
