@@ -57,6 +57,15 @@ def test_rock_many_with_block_array_equals_blocks():
     assert any(outcome.decided_after_record for outcome in single)
     assert result.overturned.tolist() == [outcome.overturned for outcome in single]
     np.testing.assert_allclose(result.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in single], rtol=1e-9)
+    verdicts = [rock_verdict(block, motion, scale=1.2, options=RockOptions(vertical=True)) for block in BLOCKS]
+    assert [verdict.overturned for verdict in verdicts] == result.overturned.tolist()
+    assert [verdict.max_rotation_ratio for verdict in verdicts] == result.max_rotation_ratio.tolist()
+
+
+def test_rock_verdict_needs_no_loop_over_rows(monkeypatch):
+    """The first run of `respond` would compile that loop for its comparison of models alone."""
+    monkeypatch.setattr("seisblock.dynamics.ensemble.integrate_rows", None)
+    assert not rock_verdict(BLOCKS[0], MOTION, scale=0.1).overturned
 
 
 def test_rock_many_in_threads_keeps_order():

@@ -157,8 +157,8 @@ def trace_free_rocking(p, theta, omega, max_leans, legs):
     return ENDLESS, count
 
 
-@kernel(_t.void(MATRIX, MATRIX, INTEGERS, INTEGERS, MATRIX), allocates=True)
-def trace_free_rocking_batch(parameters, states, modes, endings, max_leans):
+@kernel(_t.void(MATRIX, MATRIX, INTEGERS, INTEGERS, MATRIX, MATRIX))
+def trace_free_rocking_batch(parameters, states, modes, endings, max_leans, no_legs):
     """Write the ends and peak tilts of many blocks at rest, overturned or rocking.
 
     Parameters
@@ -170,8 +170,8 @@ def trace_free_rocking_batch(parameters, states, modes, endings, max_leans):
         Output: ``STANDS`` to ``ENDLESS``.
     max_leans : (m, 2) array, rad
         Output as of :func:`trace_free_rocking`; unchanged for blocks that do not rock.
+    no_legs : (0, 4) array
     """
-    legs = np.empty((0, 4))
     for row in range(modes.size):
         theta = states[row, THETA]
         if modes[row] == REST:
@@ -179,7 +179,7 @@ def trace_free_rocking_batch(parameters, states, modes, endings, max_leans):
         elif modes[row] == OVERTURNED:
             endings[row] = TO_THE_RIGHT if theta > 0.0 else TO_THE_LEFT
         else:
-            endings[row], _ = trace_free_rocking(parameters[row], theta, states[row, OMEGA], max_leans[row], legs)
+            endings[row], _ = trace_free_rocking(parameters[row], theta, states[row, OMEGA], max_leans[row], no_legs)
 
 
 INITIAL_LEGS = 64

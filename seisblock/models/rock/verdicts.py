@@ -11,9 +11,9 @@ from seisblock.bodies.block import LEFT, RIGHT, Block
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
-from seisblock.dynamics import integrate_many
+from seisblock.dynamics import integrate, integrate_many
 from seisblock.models.rock import model
-from seisblock.models.rock.free_rocking import ENDLESS, STANDS, raise_if_endless, trace_free_rocking_batch
+from seisblock.models.rock.free_rocking import ENDLESS, STANDS, raise_if_endless, trace_free_rocking, trace_free_rocking_batch
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import RockBatchParams, RockParams, rock_params
 from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
@@ -90,8 +90,14 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, options: R
     """
     checks.finite("the scale factor", scale)
     params = rock_params(block, motion, options)
-    verdicts = rock_verdicts([params], motion, params.gains(scale)).require_complete()
-    return Verdict(bool(verdicts.overturned[0]), float(verdicts.max_rotation_ratio[0]))
+    p, free_leans, ending = model.parameters(params, motion.dt), np.zeros(2), STANDS
+    run = integrate(model.ROCKING, motion, p, np.zeros(2), model.REST, gains=params.gains(scale), keep_path=False, keep_events=False)
+    if run.final_mode not in (model.REST, model.OVERTURNED):
+        ending, _ = trace_free_rocking(p, float(run.final[0]), float(run.final[1]), free_leans, np.empty((0, 4)))
+        raise_if_endless(ending == ENDLESS)
+    highest, _, lowest, _ = run.extrema[model.THETA].tolist()
+    to_right, to_left = max(highest, free_leans[RIGHT]) / p[model.ALPHA_RIGHT], max(-lowest, free_leans[LEFT]) / p[model.ALPHA_LEFT]
+    return Verdict(run.final_mode == model.OVERTURNED or ending != STANDS, float(max(to_right, to_left)))
 
 
 def rock_verdicts(
@@ -126,7 +132,7 @@ def rock_verdicts(
     endings, free_leans = np.empty(runs, dtype=np.int64), np.zeros((runs, 2))
     # failed rows enter free rocking as blocks at rest, so that their states, possibly NaN, are not used
     final, mode = np.where(ensemble.failed[:, None], 0.0, ensemble.final), np.where(ensemble.failed, model.REST, ensemble.final_mode)
-    trace_free_rocking_batch(p, final, mode, endings, free_leans)
+    trace_free_rocking_batch(p, final, mode, endings, free_leans, np.empty((0, 4)))
     gave_up = ensemble.failed | (endings == ENDLESS)
     highest, _, lowest, _ = ensemble.extrema[:, model.THETA].T
     to_right = np.maximum(highest, free_leans[:, RIGHT]) / p[:, model.ALPHA_RIGHT]
