@@ -69,10 +69,15 @@ def mutation_specs(path: Path) -> list["MutationSpec"]:
     lines = source.splitlines()
 
     def is_behaviour(start: tuple[int, int]) -> bool:
-        """Return whether a test could hold a place: no option of a dataclass or kernel, no ``*`` of a signature, no assertion of `zip`."""
+        """Return whether a test could hold a place: no option of a dataclass or kernel, no ``*`` of a signature, no assertion of `zip`.
+
+        Nor is it one where an error or a flag shortens the text that it quotes.
+        """
         line = lines[start[0] - 1]
-        is_marker = line[start[1] : start[1] + 2] == "*," or line[: start[1]].endswith("strict=")
-        return not line.lstrip().startswith("@") and not is_marker
+        before, after = line[: start[1]], line[start[1] :]
+        is_marker = after.startswith("*,") or before.endswith("strict=")
+        is_quotation = before.endswith("[:") and re.search(r"(?:[eE]rror|qc_flag)\(", line) is not None
+        return not line.lstrip().startswith("@") and not is_marker and not is_quotation
 
     specs = []
     for name in OPERATORS:
