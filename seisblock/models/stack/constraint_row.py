@@ -48,8 +48,8 @@ CONE_CENTRE, STATIC, KINETIC, WAS_SLIDING, SLIP_DIRECTION, SLIP_SPEED, SLIP_STAT
 )
 PENALTY, PRESSURE, TRIAL_SLIP = 92, 93, 94
 PENALTY_CENTRE, SLIP_CHANGE = SEARCH_DIRECTION, SEARCH_DIRECTION + 3
-FORCE_SLOPE, SLIDING_DIRECTION, LAW_CHANGE, PROJECTED, SLIP_SLOPE = SEARCH_DIRECTION, SEARCH_DIRECTION + 3, 92, 95, 98
-ROW_COLUMNS = 99
+FORCE_SLOPE, SLIDING_DIRECTION, LAW_CHANGE, PROJECTED, SLIP_SLOPE, LAW_STEP = SEARCH_DIRECTION, SEARCH_DIRECTION + 3, 92, 95, 98, 99
+ROW_COLUMNS = 102
 """Columns of a constraint row. Arms from the centres of both bodies (3, 3), m; normal out of the second body (3); Delassus block W, the
 velocity per unit impulse (9), and its inverse (9); spins per unit impulse (9, 9); impulse on the first body (3), N s; lower bound of the
 normal velocity, m/s; friction coefficient in use; change of the relative velocity by rotation over half a step (3); impulse before a
@@ -62,7 +62,7 @@ simultaneous; share of the impulse of a restitution row; normal force before the
 Newton: penalty of a contact, N s per m/s, normal impulse of the friction limit, and relative velocity (3); centre of the penalty and
 change of the velocity by the step are in the columns of the search direction. The same columns hold, for the linearised laws, the slope
 of the impulse against the normal velocity (3), the direction of the sliding friction (3), the change of the impulse (3), the impulse
-projected on the cone (3), and the slope of the friction across its direction."""
+projected on the cone (3), the slope of the friction across its direction, and the step of the impulse (3)."""
 
 LINEAR, ANGULAR, GYROSCOPIC, START_VELOCITY = 0, 3, 6, 9
 VELOCITY_COLUMNS = 15

@@ -3,9 +3,10 @@
 The laws are those of :mod:`seisblock.models.stack.pgs`. First Newton's method is applied to the laws of all contacts and the balance of
 momentum at once ([AlartCurnier1991]_): each step decides from a trial impulse whether a contact is open, sticks or slides, and linearises
 that law, with the dependence of friction on the normal impulse and on the direction of the slip. Near the solution the number of steps
-hardly depends on that of the stones. A small compliance against the change of the impulses in a step selects, of the distributions of a
-load over the points of a face, one near that of the last step; it vanishes in the solution. The matrix is not symmetric: block factors L
-U within the envelope of the contact graph (band of one block for a tower).
+hardly depends on that of the stones. A step that increases the sum of squared errors is halved, and makes the next one more compliant:
+the laws of few contacts would otherwise change to and fro. A small compliance against the change of the impulses in a step selects, of the
+distributions of a load over the points of a face, one near that of the last step; it vanishes in the solution. The matrix is not
+symmetric: block factors L U within the envelope of the contact graph (band of one block for a tower).
 
 In a pile that collapses, the laws that act may change to and fro without end. Then the friction limits are held: the velocities after the
 step minimise a convex function, kinetic energy of the change plus a quadratic penalty of each contact law about a centre impulse (the
@@ -28,6 +29,7 @@ from seisblock.models.stack.constraint_row import (
     FORCE_SLOPE,
     IMPULSE,
     LAW_CHANGE,
+    LAW_STEP,
     MIN_NORMAL_VELOCITY,
     MU,
     NORMAL,
@@ -57,10 +59,10 @@ diverge: high friction may let them grow without bound (Painleve)."""
 ACCURACY = 0.7
 """Error of the velocities, over the tolerance, at which the iterations end."""
 
-FIRST_COMPLIANCE, COMPLIANCE_FACTOR, MIN_COMPLIANCE = 3e-2, 0.5, 1e-3
+FIRST_COMPLIANCE, COMPLIANCE_FACTOR, MIN_COMPLIANCE = 3e-2, 0.5, 1e-5
 """Compliance of a contact over its Delassus block: at first, ratio of successive ones, and smallest."""
 
-STALLED_ITERATIONS, SOFTENING, MAX_COMPLIANCE, EASY_ITERATIONS = 8, 10.0, 0.3, 1
+STALLED_ITERATIONS, SOFTENING, MAX_COMPLIANCE, EASY_ITERATIONS = 8, 10.0, 0.3, 3
 """Iterations without a move of the centres after which the compliance rises, by which factor, and up to which value: the active set of many
 sliding contacts settles sooner when they are soft. The compliance then falls only after a move within so few iterations."""
 
@@ -70,15 +72,17 @@ MOVE_RATIO = 10.0
 SLOPE_RATIO, MAX_EXTENSION, MAX_TRIALS = 0.3, 16.0, 12
 """Line search: slope over the first one at which it ends, largest step, and number of trials."""
 
-MAX_LAW_ITERATIONS, TRIAL_FACTOR = 30, 10.0
+MAX_LAW_ITERATIONS, TRIAL_FACTOR = 30, 3.0
 """Newton steps on all laws at once after which the convex function is minimised; and impulse of the trial that decides which law acts, over
 velocity and Delassus block."""
 
-FIRST_PROXIMITY, MIN_PROXIMITY, PROXIMITY_FACTOR = 1e-2, 1e-4, 0.1
-"""Compliance against a change of the impulse in one step, over the Delassus block: at first, smallest, and ratio of successive ones."""
+FIRST_PROXIMITY, MIN_PROXIMITY, MAX_PROXIMITY, PROXIMITY_FACTOR = 1e-2, 1e-4, 0.1, 0.1
+"""Compliance against a change of the impulse in one step, over the Delassus block: at first, smallest, largest, and ratio of successive
+ones."""
 
-IMPROVEMENT, CYCLE_ITERATIONS = 0.8, 3
-"""Ratio to the smallest error so far below which an error counts as smaller, and steps without one after which they are halved."""
+MAX_ERROR_RATIO, MIN_LENGTH, SHORT_LENGTH = 2.0, 0.1, 0.3
+"""Ratio of successive squared errors above which a step is halved, length to which it is, and length below which the next step becomes more
+compliant."""
 
 STEP, FREE_VELOCITY, GRADIENT, INERTIA, FIRST_NEIGHBOUR = 0, 6, 12, 18, 27
 WORK_COLUMNS = 28
@@ -765,9 +769,9 @@ def _law_step(bodies, blocks, work):
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX, BLOCK, MATRIX))
 def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, blocks, work):
     """Solve the contact laws by Newton's method on all of them at once; return the number of steps, or 0 without a solution."""
-    proximity, max_change, best, since_best = FIRST_PROXIMITY, math.inf, math.inf, 0
-    for iteration in range(MAX_LAW_ITERATIONS):
-        law_error, change = 0.0, 0.0
+    proximity, max_change, last_error, length, iterations = FIRST_PROXIMITY, math.inf, math.inf, 1.0, 0
+    while iterations <= MAX_LAW_ITERATIONS:
+        law_error, change, error = 0.0, 0.0, 0.0
         for i in range(ground):
             for k in range(6):
                 work[i, STEP + k] = 0.0
@@ -778,6 +782,7 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
                 law_error, _linearise(row, proximity, u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2])
             )
             p0, p1, p2 = row[PROJECTED] - row[IMPULSE], row[PROJECTED + 1] - row[IMPULSE + 1], row[PROJECTED + 2] - row[IMPULSE + 2]
+            error += (row[W] + row[W + 4] + row[W + 8]) * (p0 * p0 + p1 * p1 + p2 * p2)
             apply_impulse(a, b, ground, inertias, row, p0, p1, p2, work)
         for i in range(n):
             u0, u1, u2 = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], rows[i], work)
@@ -790,24 +795,37 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
             for i in range(n):
                 for k in range(3):
                     rows[i, IMPULSE + k] = rows[i, PROJECTED + k]
-            return iteration + 1
-        if iteration == 0:
+            return iterations + 1
+        if iterations == 0:
             max_change = MAX_GROWTH * max(change, tolerance)
         # growing errors, or NaN
         if not change < max_change:
             return 0
-        since_best += 1
-        if max(change, law_error) < IMPROVEMENT * best:
-            best, since_best = max(change, law_error), 0
-        # the laws that act change to and fro between two steps: half steps end the cycle
-        length = 1.0 if since_best < CYCLE_ITERATIONS else 0.5
+        # the error has grown, as laws that act change to and fro: half of the step is taken back
+        # the error has grown, as laws that act change to and fro: half of the step is taken back
+        if error > MAX_ERROR_RATIO * last_error and length > MIN_LENGTH:
+            length *= 0.5
+            for i in range(n):
+                row = rows[i]
+                p0, p1, p2 = -length * row[LAW_STEP], -length * row[LAW_STEP + 1], -length * row[LAW_STEP + 2]
+                row[IMPULSE] += p0
+                row[IMPULSE + 1] += p1
+                row[IMPULSE + 2] += p2
+                apply_impulse(contact_ids[i, 0], contact_ids[i, 1], ground, inertias, row, p0, p1, p2, velocities)
+            continue
+        factor = 1.0
         # the laws that act have settled: what is left is the velocity that the proximity leaves
-        if law_error > ACCURACY * tolerance and change < MOVE_RATIO * law_error and proximity > MIN_PROXIMITY:
-            proximity *= PROXIMITY_FACTOR
+        if length == 1.0 and law_error > ACCURACY * tolerance and change < MOVE_RATIO * law_error and proximity > MIN_PROXIMITY:
+            factor = PROXIMITY_FACTOR
+        elif length < SHORT_LENGTH and proximity < MAX_PROXIMITY:
+            factor = 1.0 / PROXIMITY_FACTOR
+        if factor != 1.0:
+            proximity *= factor
             for i in range(n):
                 row = rows[i]
                 u0, u1, u2 = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], row, velocities)
                 _linearise(row, proximity, u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2])
+        last_error, length, iterations = error, 1.0, iterations + 1
         _assemble_laws(n, contact_ids, rows, ground, inertias, blocks, work)
         if not _factorise_laws(ground, blocks, work):
             return 0
@@ -816,13 +834,12 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
             row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
             u0, u1, u2 = relative_velocity(a, b, row, work)
             u0, u1, u2 = _law_slope(row, u0, u1, u2)
-            row[LAW_CHANGE] -= u0
-            row[LAW_CHANGE + 1] -= u1
-            row[LAW_CHANGE + 2] -= u2
+            row[LAW_STEP] = row[LAW_CHANGE] - u0
+            row[LAW_STEP + 1] = row[LAW_CHANGE + 1] - u1
+            row[LAW_STEP + 2] = row[LAW_CHANGE + 2] - u2
             for k in range(3):
-                row[LAW_CHANGE + k] *= length
-                row[IMPULSE + k] += row[LAW_CHANGE + k]
-            apply_impulse(a, b, ground, inertias, row, row[LAW_CHANGE], row[LAW_CHANGE + 1], row[LAW_CHANGE + 2], velocities)
+                row[IMPULSE + k] += row[LAW_STEP + k]
+            apply_impulse(a, b, ground, inertias, row, row[LAW_STEP], row[LAW_STEP + 1], row[LAW_STEP + 2], velocities)
     return 0
 
 
@@ -860,9 +877,7 @@ def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, ve
         if not change < max_change:
             return 0
         # the penalty is what is left: only a move of the centres reduces it
-        factor, moves = 1.0, change < max(ACCURACY * tolerance, MOVE_RATIO * penalty_error)
-        if has_stalled and penalty_error < ACCURACY * tolerance:
-            moves = False
+        factor, moves = 1.0, ACCURACY * tolerance < penalty_error and change < MOVE_RATIO * penalty_error
         if moves and (not has_stalled or since_move <= EASY_ITERATIONS):
             factor = max(COMPLIANCE_FACTOR, MIN_COMPLIANCE / compliance)
         elif not moves and since_move >= STALLED_ITERATIONS and compliance < MAX_COMPLIANCE:
