@@ -71,14 +71,14 @@ def _value(parameter: click.Option, value: Any) -> Any:
 
 
 SECTIONS = (
+    N_("Arguments"),
     N_("Record options"),
     N_("Site options"),
     N_("Body options"),
     N_("Solver options"),
     N_("Output options"),
-    N_("Other options"),
 )
-"""Headings of ``--help`` in their order; each option names its section."""
+"""Headings of ``--help`` in their order; each option names its section, without ``options``."""
 
 
 SHARED_ESSENTIAL = frozenset(("--component", "--json", "--csv", "--plot", "--animate", "--details", "--help", "--help-all"))
@@ -119,7 +119,7 @@ class Option(click.Option):
 class Argument(click.Argument):
     """Click argument with a help section and a help text."""
 
-    def __init__(self, *args: Any, section: str = "Other", **kwargs: Any) -> None:
+    def __init__(self, *args: Any, section: str = "Arguments", **kwargs: Any) -> None:
         help_text = kwargs.pop("help")
         super().__init__(*args, **kwargs)
         self.section, self.help = section, help_text
@@ -197,7 +197,8 @@ class Command(click.Command):
             parameters = [parameter for parameter in parameters if self._is_essential(parameter)]
         for parameter, row in help_rows(parameters, ctx):
             # click's own --help stands beside --help-all
-            groups[f"{getattr(parameter, 'section', 'Output')} options"].append(row)
+            section = getattr(parameter, "section", "Output")
+            groups[section if section in groups else f"{section} options"].append(row)
         for name, rows in groups.items():
             if rows:
                 with formatter.section(gettext(name)):
@@ -271,6 +272,6 @@ def add_options(*declarations: Decorator) -> Decorator:
     return decorate
 
 
-def argument(*declarations: str, section: str = "Other", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def argument(*declarations: str, section: str = "Arguments", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Declare an argument with a help text, see :func:`click.argument`."""
     return click.argument(*declarations, cls=Argument, section=section, **attributes)
