@@ -802,7 +802,6 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
         if not change < max_change:
             return 0
         # the error has grown, as laws that act change to and fro: half of the step is taken back
-        # the error has grown, as laws that act change to and fro: half of the step is taken back
         if error > MAX_ERROR_RATIO * last_error and length > MIN_LENGTH:
             length *= 0.5
             for i in range(n):
