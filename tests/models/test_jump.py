@@ -143,6 +143,7 @@ def test_slip_after_landing_stops_at_kinetic_friction_distance():
     chain = response.outcome.chains[0]
     speed, fall = chain.impact_velocity_rad_s * SHORT.centroid_height * 0.95, 0.85 * chain.impact_velocity_rad_s * 1.04
     assert chain.outcome == ChainOutcome.JUMPED
+    assert [event.name for event in response.events][-2:] == ["landing", "end"]
     assert chain.friction_needed_at_landing == pytest.approx(0.1, rel=1e-6)
     # at most the impulse of one flat landing and at least that of two comes off the speed before it slides flat
     maximum, minimum = (max(speed - 0.1 * share * fall, 0.0) ** 2 / (2 * 0.1 * G) for share in (1.0, 3.0))

@@ -113,6 +113,21 @@ def test_quarter_turn_of_pile_and_motion_changes_nothing():
     np.testing.assert_allclose(first["head_x"], second["head_y"], atol=1e-9)
 
 
+@pytest.mark.parametrize(("law", "tolerance"), [("rigid", 2e-5), ("springs", 1e-9)])
+def test_slab_off_an_oblong_stone_slides_alike_along_both_axes(law, tolerance):
+    """An oblong slab slides over the edge of an oblong stone along x; with both axes exchanged it does the same along y."""
+    along = sine(4.0, 1.0, 2.0)
+    across = Motion(along.acceleration[[1, 0, 2]], along.dt)
+    results = []
+    for motion, (width, depth), axis in ((along, (0.5, 0.3), "x"), (across, (0.3, 0.5), "y")):
+        offset = (0.14, 0.0) if axis == "x" else (0.0, 0.14)
+        stones = (PileStone("foot", width, depth, 0.2), PileStone("slab", 0.8 * depth, 0.8 * width, 0.1, on="foot", offset=offset))
+        response = solve_stack(Pile("two", stones, mu=0.15), motion, law=law)
+        assert np.ptp(response[f"slab_{axis}"]) > 0.01
+        results.append(response[f"slab_{axis}"])
+    np.testing.assert_allclose(results[1], results[0], atol=tolerance)
+
+
 @pytest.mark.parametrize("reinforced", [False, True])
 def test_dissipation_never_decreases_and_momentum_is_conserved(reinforced):
     """Dissipation by friction and dashpots never decreases, through rocking, falling and rest; momentum equals the impulse."""

@@ -214,6 +214,8 @@ def test_non_acceleration_units_are_rejected(tmp_path):
     ("text", "says"),
     [
         (layouts.geonet(ROWS).replace("Component N80W", "Component    "), "line 99: expected a component such as N10E or Up"),
+        (layouts.geonet(ROWS).replace("  0.0050  0.0100", "  0.0050  0.0000"), "line 23: expected a sampling interval above 0 s, found 0"),
+        (layouts.geonet(ROWS).replace("units of 1.00", "units of 0.00"), "line 11: expected samples in units of mm/s/s, found 'Raw"),
         (layouts.smc(ROWS[0]).replace("|synthetic", "synthetic"), "line 28: expected one of 1 comment lines"),
         (layouts.esm(ROWS[0]).replace("NDATA: 600", "NDATA: many"), "expected the number of samples, found 'many'"),
         (layouts.cosmos(ROWS[0]).replace("(8F10.5)", "(8F11.5)"), "expected 8 numbers of 11 characters each"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -98,3 +99,12 @@ def test_archive_of_recordings_without_station_names_its_files():
     """Twelve recordings of one component are no record of twelve components: the message names the remedy."""
     with pytest.raises(RecordError, match=r"12 recordings of component EW .* \(pulse_01.csv, .*pulse_12.csv\): give each file separately"):
         read("pulses.zip")
+
+
+def test_archive_of_two_recordings_without_station_is_rejected(tmp_path):
+    path = tmp_path / "two.zip"
+    with zipfile.ZipFile(sample_path("pulses.zip")) as source, zipfile.ZipFile(path, "w") as target:
+        for name in sorted(source.namelist())[:2]:
+            target.writestr(name, source.read(name))
+    with pytest.raises(RecordError, match="2 recordings of component EW"):
+        read(path)

@@ -13,7 +13,7 @@ from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.studies import Observation, fit_block
 from seisblock.studies.fit.block_family import BlockFamily
-from seisblock.studies.fit.cross_validation import calibration, score_predictions
+from seisblock.studies.fit.cross_validation import _threshold, calibration, score_predictions
 from seisblock.studies.fit.dataset import assign_folds, make_experiment, trim_zeros
 from seisblock.studies.fit.importance_sampling import make_proposal
 from seisblock.studies.fit.likelihood import log_likelihood, make_lapse_rate
@@ -290,3 +290,17 @@ def test_parameter_axes_are_logarithmic_or_linear():
     """Half way along p is the geometric mean of its bounds, along alpha the arithmetic one."""
     assert DEFAULT_PRIORS["p"].value(np.array([0.5]))[0] == pytest.approx(5.0)
     assert DEFAULT_PRIORS["alpha"].value(np.array([0.5]))[0] == pytest.approx(0.515)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_threshold_of_an_intensity_has_the_most_correct_classifications(seed):
+    """No threshold between, below or above the values classifies a greater weight of outcomes correctly."""
+    rng = np.random.default_rng(seed)
+    values, outcomes, weights = rng.normal(size=9), rng.random(9) < rng.random(), rng.integers(1, 4, 9).astype(float)
+
+    def correct(threshold):
+        return weights[(values > threshold) == outcomes].sum()
+
+    ends = np.sort(values)
+    candidates = [-np.inf, *(0.5 * (ends[:-1] + ends[1:])), np.inf]
+    assert correct(_threshold(values, outcomes.astype(float), weights)) == max(map(correct, candidates))
