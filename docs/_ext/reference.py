@@ -20,7 +20,7 @@ from sphinx.application import Sphinx
 
 import seisblock
 from seisblock.cli import COMMANDS, main
-from seisblock.cli.command import SECTIONS
+from seisblock.cli.command import SECTIONS, section_heading
 from seisblock.cli.help import help_rows, paragraphs
 from seisblock.core.options import document_key, option_fields, plain_help
 from seisblock.core.registry import get_solver, solver_names
@@ -51,7 +51,7 @@ def command(name: str, context: click.Context) -> Iterator[str]:
     yield from (f"{plain(part)}\n" for part in paragraphs(cmd.help or ""))
     groups: dict[str, list[str]] = {section: [] for section in SECTIONS}
     for parameter, (terms, text) in help_rows(cmd.get_params(inner), inner):
-        groups[f"{getattr(parameter, 'section', 'Other')} options"] += [f"`{terms}`", f": {plain(text)}\n"]
+        groups[section_heading(parameter)] += [f"`{terms}`", f": {plain(text)}\n"]
     for section, rows in groups.items():
         if rows:
             yield f"**{section}**\n"

@@ -138,6 +138,12 @@ def docstring(target: ModuleType | Callable[..., Any]) -> str | None:
     return ast.get_docstring(node) if isinstance(node, ast.Module | ast.FunctionDef) else None
 
 
+def section_heading(parameter: click.Parameter) -> str:
+    """Return the heading of ``--help`` under which a parameter stands; click's own ``--help`` stands beside ``--help-all``."""
+    section: str = getattr(parameter, "section", "Output")
+    return section if section in SECTIONS else f"{section} options"
+
+
 class Command(click.Command):
     """Command with options grouped into sections and examples at the end of the help.
 
@@ -196,9 +202,7 @@ class Command(click.Command):
         if self.essential and HELP_ALL not in ctx.meta:
             parameters = [parameter for parameter in parameters if self._is_essential(parameter)]
         for parameter, row in help_rows(parameters, ctx):
-            # click's own --help stands beside --help-all
-            section = getattr(parameter, "section", "Output")
-            groups[section if section in groups else f"{section} options"].append(row)
+            groups[section_heading(parameter)].append(row)
         for name, rows in groups.items():
             if rows:
                 with formatter.section(gettext(name)):
