@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.core.errors import ParameterError
@@ -135,6 +137,35 @@ def test_sticking_landing_conserves_angular_momentum_about_corner():
     rows = np.flatnonzero(response.time >= chain.landing_s)[1:4]
     bend = np.polyfit(response.time[rows] - chain.landing_s, response["rotation"][rows], 2)
     assert -bend[1] == pytest.approx(momentum / SHORT.corner_inertia, rel=2e-3)
+
+
+def test_corner_that_sticks_after_landing_is_a_pendulum_on_shaken_ground():
+    """After the landing the tilt about the right corner is that of scipy's integration, under ground that shakes from then on.
+
+    psi, the angle of the centroid's arm: I_O psi'' = -m R (g cos(psi) + a sin(psi)). The rate at the landing is fitted.
+    """
+    contact = Contact(4.0, 4.0, 0.95, 0.85)
+    first, time = 90, np.arange(PULSE.samples) * PULSE.dt
+    shaking = 4.0 * np.random.default_rng(2).normal(size=PULSE.samples) * (np.arange(PULSE.samples) >= first)
+    motion = Motion.from_arrays(PULSE.horizontal + shaking, PULSE.dt)
+    response = solve_jump(SHORT, motion, contact=contact, landing="friction", spin="ratio=0.19", gravity=G)
+    landing = response.outcome.chains[0].landing_s
+    assert (first - 1) * PULSE.dt < landing < response.phases[3].end_s - 0.15
+    rows = np.flatnonzero((response.time > landing) & (response.time <= landing + 0.15))
+    angle = 0.5 * math.pi - SHORT.slenderness + response["rotation"]
+    start, step = angle[rows[0]], response.time[rows] - response.time[rows[0]]
+    factor = SHORT.mass * SHORT.radius / SHORT.corner_inertia
+
+    def rates(t, state):
+        ground = np.interp(t + response.time[rows[0]], time, motion.horizontal)
+        return state[1], -factor * (G * math.cos(state[0]) + ground * math.sin(state[0]))
+
+    def path(rate):
+        return solve_ivp(rates, (0.0, step[-1]), (start, rate), t_eval=step, rtol=1e-11, atol=1e-13, max_step=PULSE.dt).y[0]
+
+    rate = brentq(lambda rate: path(rate)[-1] - angle[rows[-1]], -2.0, 2.0, xtol=1e-14)
+    np.testing.assert_allclose(path(rate), angle[rows], rtol=0.0, atol=1e-8)
+    assert np.ptp(np.diff(angle[rows], 2)) > 1e-4
 
 
 def test_slip_after_landing_stops_at_kinetic_friction_distance():
