@@ -296,11 +296,11 @@ def test_parameter_axes_are_logarithmic_or_linear():
 def test_threshold_of_an_intensity_has_the_most_correct_classifications(seed):
     """No threshold between, below or above the values classifies a greater weight of outcomes correctly."""
     rng = np.random.default_rng(seed)
-    values, outcomes, weights = rng.normal(size=9), rng.random(9) < rng.random(), rng.integers(1, 4, 9).astype(float)
+    values, outcomes, weights = rng.normal(size=9), rng.random(9) < rng.random(), rng.uniform(0.2, 1.2, 9)
 
     def correct(threshold):
         return weights[(values > threshold) == outcomes].sum()
 
     ends = np.sort(values)
     candidates = [-np.inf, *(0.5 * (ends[:-1] + ends[1:])), np.inf]
-    assert correct(_threshold(values, outcomes.astype(float), weights)) == max(map(correct, candidates))
+    assert correct(_threshold(values, outcomes.astype(float), weights)) == pytest.approx(max(map(correct, candidates)))
