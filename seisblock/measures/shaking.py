@@ -111,10 +111,14 @@ def response_shaking(response: Response[Any], *, peaks: MotionPeaks | None = Non
 def transverse_shaking(response: Response[Any]) -> BodyShaking | None:
     """Return the shaking along +y of the motion of a spatial response; None for a plane model and without transverse motion."""
     solver, motion = get_solver(response.model), response.motion
-    if not solver.spatial or solver.threshold is None or not motion.transverse.any():
+    if not solver.spatial or solver.threshold is None:
         return None
-    across = replace(motion, rows=(motion.transverse, motion.horizontal, motion.vertical))
-    return shaking_of(across, solver.threshold(response.body, response.options, axis=1))
+    across = motion.transverse
+    if not across.any():
+        return None
+    return shaking_of(
+        replace(motion, rows=(across, motion.horizontal, motion.vertical)), solver.threshold(response.body, response.options, axis=1)
+    )
 
 
 def body_thresholds(solver: str, body: Any, options: Any) -> tuple[float, float]:

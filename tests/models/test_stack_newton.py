@@ -153,14 +153,21 @@ def test_contacts_respond_as_the_dense_system():
     assert not velocities[count].any()
 
 
-@pytest.mark.kernel
-@pytest.mark.parametrize("seed", range(3))
-def test_step_on_all_laws_solves_the_balance_of_momentum(seed):
-    """M dv = sum of J' dP with dP = R - A J dv, solved as a dense system; laws that stick, slide, pull and do not act among them."""
+def begun(seed):
+    """Return a network of contacts (see :func:`network`) with blocks and work arrays, after the preparation of both Newton methods."""
     ids, rows, masses, inverses, velocities = network(np.random.default_rng(seed))
     count = len(masses)
     blocks, work = np.zeros((count + 1, count + 1, 36)), np.zeros((count + 1, WORK_COLUMNS))
     newton._begin(len(rows), ids, rows, count, masses, inverses, velocities, work)
+    return ids, rows, masses, inverses, velocities, blocks, work
+
+
+@pytest.mark.kernel
+@pytest.mark.parametrize("seed", range(3))
+def test_step_on_all_laws_solves_the_balance_of_momentum(seed):
+    """M dv = sum of J' dP with dP = R - A J dv, solved as a dense system; laws that stick, slide, pull and do not act among them."""
+    ids, rows, masses, inverses, velocities, blocks, work = begun(seed)
+    count = len(masses)
     system, load, slopes = mass_matrix(masses, inverses), np.zeros(6 * count), []
     for pair, row in zip(ids, rows, strict=True):
         place = jacobian(pair, row, count)
@@ -185,13 +192,11 @@ def test_step_on_all_laws_solves_the_balance_of_momentum(seed):
 @pytest.mark.parametrize("seed", range(3))
 def test_step_of_convex_function_solves_its_hessian(seed):
     """Gradient by the sum of momenta and impulses, Hessian by differences of that, and the step that solves both as a dense system."""
-    ids, rows, masses, inverses, velocities = network(np.random.default_rng(seed))
+    ids, rows, masses, inverses, velocities, blocks, work = begun(seed)
     count = len(masses)
-    blocks, work = np.zeros((count + 1, count + 1, 36)), np.zeros((count + 1, WORK_COLUMNS))
     free, mass = velocities[:count, :6].ravel().copy(), mass_matrix(masses, inverses)
     places = [jacobian(pair, row, count) for pair, row in zip(ids, rows, strict=True)]
     free -= np.linalg.solve(mass, sum(place.T @ row[IMPULSE : IMPULSE + 3] for place, row in zip(places, rows, strict=True)))
-    newton._begin(len(rows), ids, rows, count, masses, inverses, velocities, work)
     newton._errors(len(rows), ids, rows, count, masses, inverses, velocities, work)
 
     def gradient(change):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from seisblock.models.stack.constraint_row import ARM_B, GAP, IMPULSE, NORMAL
+from seisblock.models.stack.constraint_row import ARM_B, GAP, IMPULSE, NORMAL, ROW_COLUMNS
 from seisblock.models.stack.frames import BODY, Q, update_rotation_matrix
 from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_SLIDING, POSITION, PREVIOUS_FORCE, SLOT
 from seisblock.models.stack.warm_start import distribute_load, has_lost_loaded_point, project_to_plane, sum_joint_load
@@ -85,7 +85,7 @@ def test_normal_impulses_of_a_flat_joint_move_to_a_plane():
         count = int(rng.integers(4, 9))
         points, pressing = rng.normal(size=(count, 2)), rng.uniform(0.0, 1.0, count) ** 3
         friction = 0.1 * rng.normal(size=(count, 2))
-        table = np.zeros((count + 1, 100))
+        table = np.zeros((count + 1, ROW_COLUMNS))
         table[:, NORMAL : NORMAL + 3] = axes[:, 2]
         table[1:, ARM_B : ARM_B + 3] = np.column_stack([points, np.full(count, 0.3)]) @ axes.T
         table[1:, IMPULSE : IMPULSE + 3] = np.column_stack([friction, pressing]) @ axes.T

@@ -184,6 +184,7 @@ def test_title_lists_processing_steps():
     figure.set_title("a long name " * 40)
     figure.canvas.draw()
     assert figure.heading.get_text().endswith("…")
+    assert figure.heading.get_window_extent().x1 <= figure.bbox.width
 
 
 def test_long_sentence_as_title_is_broken_between_words():

@@ -199,7 +199,8 @@ def solve_runs(
     runs = _integrate_rows(model, motion, p, initial_states, template.first_mode, gains, observer)
     record_mode = runs.mode.copy()
     moving = ~runs.failed & (record_mode >= 0) & ~are_rest(record_mode)
-    if settle_s > 0.0:
+    # without a moving row there is nothing to prepare
+    if settle_s > 0.0 and moving.any():
         ground = zero_motion(settle_s)
         p = _parameter_rows(params, ground.dt, duration + settle_s, ground_at_rest=True)
         rows = np.flatnonzero(moving)

@@ -13,10 +13,12 @@ from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
 from seisblock.dynamics import integrate, integrate_many
 from seisblock.models.rock import model
-from seisblock.models.rock.free_rocking import ENDLESS, STANDS, raise_if_endless, trace_free_rocking, trace_free_rocking_batch
+from seisblock.models.rock.free_rocking import ENDLESS, STANDS, raise_if_endless, trace_free_rocking_batch
 from seisblock.models.rock.options import RockOptions
+from seisblock.models.rock.outcome import NO_OVERTURNING
 from seisblock.models.rock.params import RockBatchParams, RockParams, rock_params
 from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
+from seisblock.models.rock.solve import outcome_after_record
 from seisblock.records import Motion
 
 
@@ -90,14 +92,13 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, options: R
     """
     checks.finite("the scale factor", scale)
     params = rock_params(block, motion, options)
-    p, free_leans, ending = model.parameters(params, motion.dt), np.zeros(2), STANDS
-    run = integrate(model.ROCKING, motion, p, np.zeros(2), model.REST, gains=params.gains(scale), keep_path=False, keep_events=False)
-    if run.final_mode not in (model.REST, model.OVERTURNED):
-        ending, _ = trace_free_rocking(p, float(run.final[0]), float(run.final[1]), free_leans, np.empty((0, 4)))
-        raise_if_endless(ending == ENDLESS)
+    p, gains = model.parameters(params, motion.dt), params.gains(scale)
+    run = integrate(model.ROCKING, motion, p, np.zeros(2), model.REST, gains=gains, keep_path=False, keep_events=False)
+    aftermath = outcome_after_record(run.final_mode, run.final, params) or NO_OVERTURNING
     highest, _, lowest, _ = run.extrema[model.THETA].tolist()
-    to_right, to_left = max(highest, free_leans[RIGHT]) / p[model.ALPHA_RIGHT], max(-lowest, free_leans[LEFT]) / p[model.ALPHA_LEFT]
-    return Verdict(run.final_mode == model.OVERTURNED or ending != STANDS, float(max(to_right, to_left)))
+    leans = max(highest, aftermath.max_leans[RIGHT]), max(-lowest, aftermath.max_leans[LEFT])
+    ratio = max(lean / alpha for lean, alpha in zip(leans, params.alphas, strict=True))
+    return Verdict(run.final_mode == model.OVERTURNED or aftermath.overturns, ratio)
 
 
 def rock_verdicts(

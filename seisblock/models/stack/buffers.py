@@ -66,7 +66,7 @@ class PileMemory(NamedTuple):
         Axis-aligned bounding boxes: centres and half sizes.
     scratch : (36, 18) array
         Scratch.
-    contact_ids, constraint_rows : (k, 8), (k, 102) arrays
+    contact_ids, constraint_rows : (k, 8), (k, ROW_COLUMNS) arrays
         Rigid contacts of a step: their bodies and slots, and their constraint rows.
     inverses, body_velocities : (m + 1, 9), (m + 1, 15) arrays
         Inverse inertia of the bodies in the ground's axes; velocities, spins, and gyroscopic change of the spins.

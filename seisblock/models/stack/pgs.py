@@ -189,7 +189,7 @@ def solve_pgs(n, contact_ids, rows, ground, inertias, target, tolerance, velocit
     ----------
     contact_ids : (k, 2) array of int
         The bodies of each contact.
-    rows : (k, 102) array
+    rows : (k, ROW_COLUMNS) array
         Constraint rows, with the initial impulses (warm start).
     target, tolerance : float, m/s
         Velocity change of a sweep at which the first :data:`FINE_SWEEPS` sweeps end, and the later ones.
