@@ -466,6 +466,13 @@ def test_find_measures_requires_no_restraint_of_a_safe_object():
     assert measure_note(result.measures[-1]) == "" and {share for _, share in result.measures[-1].curve} == {0.0}
 
 
+def test_find_measures_solves_no_restraint_of_a_safe_object(monkeypatch):
+    """The demands on a restraint, a third of the time under a long record, are computed for an unsafe object only."""
+    monkeypatch.setattr("seisblock.studies.scenario.secure.case_demands", None)
+    records, _ = scenario_suite(ScenarioTarget(pga_m_s2=1.0, pgv_m_s=0.1), 10)
+    assert find_measures(SolverBody("box", Block(0.4, 0.6), RespondOptions(mu=0.5)), records, target=0.05).measures[-1].value == 0.0
+
+
 def test_scenario_suite_rejects_too_few_records():
     with pytest.raises(ParameterError):
         scenario_suite(ScenarioTarget(jma=6.0), 3)

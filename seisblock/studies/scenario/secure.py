@@ -371,12 +371,12 @@ def find_measures(
         )
         decided = {value for key, value in full if key == name}
         measures.append(_measure(body, name, rows, decided, target, has_mass=has_mass))
-    restraint = _restraint(search, target, body.body.height if height is None else height, has_mass=has_mass)
-    own_probability = search.own_probability()
+    own_probability, height = search.own_probability(), body.body.height if height is None else height
     if own_probability <= target:
-        # the object would load a restraint that it does not need
-        curve = tuple((force, own_probability) for force in (0.0, restraint.curve[-1][0]))
-        restraint = replace(restraint, value=0.0, overturning_probability=own_probability, moment=0.0, foot_force=None, curve=curve)
+        unit, curve = "N" if has_mass else "1", ((0.0, own_probability),)
+        restraint = Measure(RESTRAINT, 0.0, unit, own_probability, 0.0, moment=0.0, height_m=height, curve=curve)
+    else:
+        restraint = _restraint(search, target, height, has_mass=has_mass)
     years = None if frequencies is None else frequencies.years
     return Security(body.name, target, own_probability, search.runs, (*measures, restraint), years)
 
