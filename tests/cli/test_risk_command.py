@@ -53,6 +53,11 @@ def test_risk_first_line_states_rate_and_probability(run):
     assert first == "return period 552 years; probability in 30 years 5 %."
 
 
+def test_risk_of_median_has_no_column_of_limit_states(run):
+    """A median on the command line has no name; a dash stood there."""
+    assert "limit state" not in run(*LINE).stdout and "\xa0-\xa0" not in run(*LINE).stdout.replace(" ", "\xa0")
+
+
 def test_risk_writes_figure_and_contributions(run, tmp_path):
     """The figure, and the levels that it comes from; their shares have the sum one."""
     assert run(*LINE, "--plot", "risk.svg", "--csv", "risk.csv").exit_code == 0

@@ -67,7 +67,7 @@ def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
     ]
     rows = [
         [
-            risk_label(fragility, gal=gal) or DASH,
+            risk_label(fragility, gal=gal),
             format_number(fragility.curve.median / size, 3),
             f"{fragility.curve.beta:.2f}",
             f"{risk.annual_rate:.3g}",
@@ -75,7 +75,9 @@ def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
         ]
         for fragility, risk in risks
     ]
-    return table("", header, rows)
+    # a curve of --median has no name
+    start = 0 if any(risk_label(fragility, gal=gal) for fragility, _ in risks) else 1
+    return table("", header[start:], [row[start:] for row in rows])
 
 
 def _measure_heading(measure: IntensityMeasure, name: str, *, gal: bool) -> str:
