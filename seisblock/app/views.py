@@ -244,7 +244,7 @@ def object_result(tab: Tab, job: Job) -> str:
 
 def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
     from seisblock.output.text.tables import format_share_interval
-    from seisblock.report.text.assessment import headline, object_headline
+    from seisblock.report.text.assessment import headline, name_pile, object_headline
 
     rows = [row["assessment"] for row in document["results"] if "assessment" in row]
     if not rows:
@@ -258,10 +258,11 @@ def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
         }
     # several horizontals: the object falls under either of them
     assessed = document.get("object", rows[0])
+    text = (object_headline if "object" in document else headline)(_assessment(assessed))
     return {
         "probability": assessed["overturning_probability"],
         "text": format_percent(assessed["overturning_probability"], "g"),
-        "verdict": (object_headline if "object" in document else headline)(_assessment(assessed)),
+        "verdict": name_pile(text, document["parameters"]["block"]["stone_count"]),
         "level": LEVELS[assessed["class"]],
         "rows": [
             (

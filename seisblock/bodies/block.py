@@ -63,6 +63,8 @@ class Block(DisplayMixin):
     name : str
     ranges : ParameterRanges or None
         Ranges of the block's kind; samples are drawn from them instead of varying by shares.
+    stone_count : int
+        Number of stones that it represents as one rigid block: those of a pile, else 1.
 
     Raises
     ------
@@ -92,6 +94,7 @@ class Block(DisplayMixin):
     name: str = N_("block")
     inset: float = 0.0
     ranges: ParameterRanges | None = field(default=None, repr=False)
+    stone_count: int = 1
 
     def __post_init__(self) -> None:
         for key, (label, unit) in _POSITIVE_FIELDS.items():

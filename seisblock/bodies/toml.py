@@ -209,4 +209,6 @@ def pile_note(table: Mapping[str, Any] | None) -> Message | None:
     """Return a note on a pile that is taken as one rigid block; None for other bodies."""
     if table is None or table.get("kind") != "pile":
         return None
-    return lazy_gettext("{count} stones as one rigid block (stones one by one: seisblock stack)", count=len(table["stone"]))
+    return lazy_gettext(
+        "{count} stones as one rigid block (stones one by one: seisblock stack)", count=len(table["stone"]) - len(table.get("fixed", ()))
+    )

@@ -99,3 +99,9 @@ def test_piles_are_named_as_one_block(tmp_path):
     assert [str(text) for text in notes] == [f"wagata: {note}"]
     table = run("batch", *SHORT[:1], "--bodies", "wagata", "--solver", "rock", "--out", str(tmp_path / "table.csv"))
     assert f"wagata: {note}" in " ".join(table.stderr.split())
+    # the headline itself says whose probability it is; one per direction, and that of the object
+    for command in ("rock", "respond"):
+        runs = ("--perturb", "10") if command == "rock" else ("--runs", "10")
+        lines = run(command, "shafter_1989", "--block", "wagata", *runs).stdout.replace("\xa0", " ").splitlines()
+        heads = [line for line in lines if "stays (" in line]
+        assert len(heads) == 3 and all(line.startswith("5 stones as one rigid block, ") for line in heads), heads

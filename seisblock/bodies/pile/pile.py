@@ -322,6 +322,7 @@ class Pile(DisplayMixin):
             name=self.name,
             inset=max(self.stones[i].insets()[0] for i in base_stones),
             ranges=self.ranges,
+            stone_count=len(free_stones),
         )
 
     def with_wear(self, inset: EdgeWear | float) -> Pile:

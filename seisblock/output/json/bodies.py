@@ -30,6 +30,8 @@ class BlockEntry(Struct, frozen=True, kw_only=True):
         About the centre of gravity.
     slenderness_right_rad, slenderness_left_rad : float
         alpha of the corner at +x and at -x.
+    stone_count : int
+        Number of stones that it represents as one rigid block.
     """
 
     name: str
@@ -43,6 +45,7 @@ class BlockEntry(Struct, frozen=True, kw_only=True):
     centroid_inertia_kg_m2: float
     slenderness_right_rad: float
     slenderness_left_rad: float
+    stone_count: int
 
 
 def block_entry(block: Block) -> BlockEntry:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from rich.text import Text
 
 from seisblock.core.i18n import N_, format_share, gettext
+from seisblock.core.results import Response
 from seisblock.output.text.tables import format_seconds, styled_line
 from seisblock.studies.assessment import LIKELY, MAY, MOVES, STAYS, Assessment, DirectionAssessment, assess_object
 from seisblock.studies.azimuth_probability import AzimuthAverage
@@ -84,21 +85,35 @@ def style(assessment: Assessment) -> str:
     return STYLES[assessment.class_]
 
 
-def assessment_lines(extra: Mapping[str, Any]) -> Iterator[Text]:
+def name_pile(text: str, stone_count: int) -> str:
+    """Return a headline; that of a pile begins with its number of stones, taken as one rigid block.
+
+    Examples
+    --------
+    >>> name_pile("NS: stays (0 %)", 5)
+    '5 stones as one rigid block, NS: stays (0 %)'
+    """
+    return text if stone_count == 1 else gettext("{count} stones as one rigid block, {text}", count=stone_count, text=text)
+
+
+def assessment_lines(extra: Mapping[str, Any], body: Any) -> Iterator[Text]:
     """Yield the headline of a direction, and until when its single run is predictable; nothing without samples.
 
     Parameters
     ----------
     extra : mapping
         Further results of the direction.
+    body : body of the solver
     """
     part: DirectionAssessment | None = extra.get("assessment")
     if part is None:
         return
+    stone_count = getattr(body, "stone_count", 1)
     if "directions" in extra:
         worst = extra["directions"][0].azimuth_deg
-        yield styled_line(*azimuths_headline(extra["all_azimuths"], worst, part.assessment.overturning_probability))
-    yield styled_line(headline(part.assessment), style(part.assessment))
+        text, color = azimuths_headline(extra["all_azimuths"], worst, part.assessment.overturning_probability)
+        yield styled_line(name_pile(text, stone_count), color)
+    yield styled_line(name_pile(headline(part.assessment), stone_count), style(part.assessment))
     if text := predictability_text(part.assessment):
         yield styled_line("  " + text)
 
@@ -127,9 +142,9 @@ def first_probability(extras: Sequence[Mapping[str, Any]]) -> float | None:
     return None if part is None else part.assessment.overturning_probability
 
 
-def object_lines(extras: Iterable[Mapping[str, Any]]) -> Iterator[Text]:
+def object_lines(pairs: Sequence[tuple[Response[Any], Mapping[str, Any]]]) -> Iterator[Text]:
     """Yield the headline of an object under several directions of one record; nothing for a single direction."""
-    parts = [extra["assessment"] for extra in extras if "assessment" in extra]
+    parts = [extra["assessment"] for _, extra in pairs if "assessment" in extra]
     if len(parts) > 1:
         assessment = assess_object(parts)
-        yield styled_line(object_headline(assessment), style(assessment))
+        yield styled_line(name_pile(object_headline(assessment), pairs[0][0].body.stone_count), style(assessment))

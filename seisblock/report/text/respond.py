@@ -40,9 +40,7 @@ MIN_SURVIVORS = 20
 def tables(responses: Responses, extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Iterator[Any]:
     """Yield, per record, verdict and probability, a table with a column per component, and the notes."""
     pairs = zip(responses, extras, strict=True)
-    for heading, part in group_answers(
-        pairs, lambda pair: pair[0].motion.record, lambda pair: _summary(*pair, gal=gal), lambda part: object_lines(e for _, e in part)
-    ):
+    for heading, part in group_answers(pairs, lambda pair: pair[0].motion.record, lambda pair: _summary(*pair, gal=gal), object_lines):
         yield from heading
         yield outcome_table([r for r, _ in part], gal=gal)
         yield from shaking_lines([r for r, _ in part], gal=gal)
@@ -59,7 +57,7 @@ def tables(responses: Responses, extras: Sequence[Mapping[str, Any]], *, gal: bo
 
 
 def _summary(response: Response[RespondOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:
-    yield from assessment_lines(extra)
+    yield from assessment_lines(extra, response.body)
     yield from base_lines(response, extra, gal=gal)
     yield styled_line(describe(response, gal=gal), "" if "assessment" in extra else "bold")
     if "probability" in extra:

@@ -46,8 +46,8 @@ def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal
     for heading, part in group_answers(
         pairs,
         lambda pair: pair[0].motion.record,
-        lambda pair: [*assessment_lines(pair[1]), *base_lines(*pair, gal=gal), styled_line(describe(pair[0], mu, gal=gal))],
-        lambda part: object_lines(extra for _, extra in part),
+        lambda pair: [*assessment_lines(pair[1], pair[0].body), *base_lines(*pair, gal=gal), styled_line(describe(pair[0], mu, gal=gal))],
+        object_lines,
     ):
         yield from heading
         selected = [response for response, _ in part]
