@@ -29,7 +29,7 @@ from seisblock.core.io.csv_table import (
 )
 from seisblock.core.io.spreadsheet import Sheet, is_table, read_sheet
 from seisblock.core.limits import MAX_BODIES, MAX_STONES, check_limit
-from seisblock.core.units import SUN, parse_mass
+from seisblock.core.units import MAX_UNITLESS_LENGTH, SUN, parse_mass
 
 PAPER_WIDTH = 8 * SUN
 """Default width of an upper stone (sao), m: that of the fitted criterion ([Furukawa2009]_ table 1)."""
@@ -128,8 +128,8 @@ _UNITS = {
 }
 """Units accepted in the headings of columns without other units."""
 
-MAX_LENGTH, MAX_STONE_LENGTH = 100.0, 20.0
-"""Largest plausible size of an object and of a gravestone, m; larger numbers probably lack their unit."""
+MAX_LENGTH = 100.0
+"""Largest plausible size of an object, m; of a gravestone, and of a number without a unit, :data:`MAX_UNITLESS_LENGTH`."""
 
 RATIO_TOLERANCE = 0.05
 """Largest relative difference between a given ratio and that of height and width."""
@@ -456,12 +456,10 @@ def _parse_value(key: str, cell: str, unit: str, *, stone: bool) -> Any:
         return _parse_count(cell)
     if key in LENGTH_COLUMNS:
         value = _check_range(key, parse_length_cell(cell, key, unit), "m")
-        if abs(value) > (MAX_STONE_LENGTH if stone else MAX_LENGTH):
-            remedy = (
-                lazy_gettext(" (read as metres without a unit: name the column, for example, {key} (cm))", key=key)
-                if is_bare_number(cell) and not unit
-                else ""
-            )
+        unitless = is_bare_number(cell) and not unit
+        if abs(value) > (MAX_UNITLESS_LENGTH if stone or unitless else MAX_LENGTH):
+            text = " (read as metres without a unit: name the column, for example, {key} (cm))"
+            remedy = lazy_gettext(text, key=key) if unitless else ""
             raise BodyError("{key} of {value:g} m is not plausible{remedy}", key=key, value=value, remedy=remedy)
         return value
     return _check_range(key, parse_number_cell(cell, key))

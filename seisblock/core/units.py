@@ -344,6 +344,10 @@ def _parse(text: str | float, table: Mapping[str, float], default: str, quantity
             )
         value, unit = float(match[1]), match[2]
     factor = table.get(unit or default)
+    if unit.startswith(","):
+        raise ParameterError(
+            "{what} {text!r} contains a comma: write a decimal point, and no separator of thousands", what=quantity, text=text
+        )
     if factor is None:
         raise UnitError(
             "{what} {text!r}: unknown unit {unit!r}; use one of {known}",

@@ -69,6 +69,22 @@ def test_files_with_implausible_size_are_rejected(run, tmp_path):
     )
 
 
+def test_object_without_unit_above_20_m_is_rejected(run, tmp_path):
+    """A case of 60 x 190 without a unit was 60 m wide and 190 m high, or 24 by 72 m, and stood."""
+    (tmp_path / "objects.csv").write_text("name,width,height\ncase,24,72\n")
+    code, message = run("scenario", "--jma", "6+", "--bodies", "objects.csv")
+    assert code == 3 and "width of 24 m is not plausible (read as metres without a unit" in message
+    (tmp_path / "objects.csv").write_text("name,width (m),height (m)\ntank,24,10\n")
+    assert run("batch", "--bodies", "objects.csv", "--solver", "rock", "--out", "t.csv")[0] == 0
+
+
+def test_number_with_comma_is_named(run, tmp_path):
+    """Decimal comma or thousands: not told apart; ``,900`` was called an unknown unit."""
+    (tmp_path / "objects.csv").write_text('name,width (cm),height (mm),weight (kg)\ncase,60,"1,900",150\ncase,60,1900,"1,200"\n')
+    code, message = run("batch", "--bodies", "objects.csv", "--solver", "rock", "--out", "t.csv")
+    assert code == 3 and "line 2: height '1,900' contains a comma" in message
+
+
 def test_ambiguous_column_t_is_rejected(run, tmp_path):
     """An ambiguous column T is reported, not guessed."""
     name = table(tmp_path / "ltv.csv", "t,L,T,V", 100, 200, 50)
