@@ -56,6 +56,9 @@ def read_option_file(path: Path, command: click.Command) -> dict[str, Any]:
             text = gettext("{file}: {command} has no option {name}", file=str(path), command=command.name, name=f"--{name}")
             raise click.UsageError(did_you_mean(text, closest_name(name, parameters)))
         parameter = parameters[name]
+        if isinstance(value, bool) and not parameter.is_flag:
+            text = N_("{file}: --{name} requires a value, found {value}")
+            raise click.UsageError(gettext(text, file=str(path), name=name, value=str(value).lower()))
         switch_off = f"--{name}" in parameter.secondary_opts
         options[parameter.name or name] = not value if switch_off else _value(parameter, value)
     return options
@@ -114,6 +117,8 @@ class Option(click.Option):
         if kwargs.get("type") is float:
             kwargs["type"] = Finite()
         super().__init__(*args, **kwargs)
+        # "integer range" reads as if a range were to be given
+        self.type.name = self.type.name.removesuffix(" range")
 
 
 class Argument(click.Argument):

@@ -51,7 +51,9 @@ class Count(click.ParamType):  # type: ignore[type-arg]
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
         """Return the number."""
-        count: int = click.IntRange(min=self.minimum).convert(value, param, ctx)
+        kind = click.IntRange(min=self.minimum)
+        kind.name = self.name
+        count: int = kind.convert(value, param, ctx)
         try:
             check_limit(self.quantity, count**self.power, self.limit)
         except InputError as error:

@@ -52,6 +52,8 @@ def test_table_of_the_command_is_read_from_a_common_file(tmp_path):
         ("widht = 3", "respond has no option --widht; did you mean width?"),
         ("width = ", "Invalid value"),
         ("width = 'wide'", "wide"),
+        ("mu = true", "wrong.toml: --mu requires a value, found true"),
+        ("runs = 20.5", "'20.5' is not a valid integer."),
         ("help = true", "respond has no option --help"),
     ],
 )
