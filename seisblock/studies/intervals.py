@@ -1,12 +1,11 @@
 """Binomial confidence intervals of a share, and the effective size of a weighted sample.
 
-Quantiles are those of :mod:`scipy.special`: `scipy.stats`, which has both intervals, takes half a second to load and a thousand times as
+Quantiles are those of :mod:`scipy.special`: `scipy.stats`, which has the interval, takes half a second to load and a thousand times as
 long per call.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from seisblock.core import checks
@@ -87,25 +86,6 @@ def clustered_interval(counts: Sequence[int], runs: Sequence[int], confidence: f
     low = float(betaincinv(x, effective - x + 1.0, tail)) if count else 0.0
     high = float(betaincinv(x + 1.0, effective - x, 1.0 - tail)) if count < total else 1.0
     return low, high
-
-
-def wilson_interval(count: int, runs: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
-    """Return Wilson's score interval of a share; parameters and errors as for :func:`clopper_pearson`.
-
-    Examples
-    --------
-    >>> low, high = wilson_interval(35, 100)
-    >>> round(low, 4), round(high, 4)
-    (0.2636, 0.4475)
-    """
-    from scipy.special import ndtri
-
-    z = float(ndtri(0.5 + _check_counts(count, runs, confidence) / 2))
-    share = count / runs
-    middle = (share + z * z / (2 * runs)) / (1 + z * z / runs)
-    half = z / (1 + z * z / runs) * math.sqrt(share * (1 - share) / runs + z * z / (4 * runs * runs))
-    # exact ends for counts of zero and of all, free of round-off
-    return max(middle - half, 0.0) if count else 0.0, min(middle + half, 1.0) if count < runs else 1.0
 
 
 def _check_counts(count: int, runs: int, confidence: float) -> float:

@@ -6,17 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from seisblock.bodies.block import Block
-from seisblock.core.i18n import N_, format_percent, format_share, gettext, lazy_gettext
+from seisblock.core.i18n import N_, format_share, gettext, lazy_gettext
 from seisblock.output.describe_wear import sampled_edges
-from seisblock.output.text.tables import Part, format_range, styled_line, with_notes
+from seisblock.output.text.tables import Part, format_range, format_share_interval, styled_line, with_notes
 from seisblock.report.text.assessment import factor_text
 from seisblock.studies.model_comparison import ModelComparison, ModelResult
 from seisblock.studies.parallel import left_out_versions
 from seisblock.studies.rocking.perturb import Perturbation
 from seisblock.studies.survey.model_rates import ModelRate
-
-MIN_SHARE, MAX_SHARE = 0.03, 0.98
-"""Range of meaningful shares: of fitted real rocks 3 % overturned where no sample did, and 2 % did not where all samples did."""
 
 
 def agreement_line(name: str, agreement: ModelComparison) -> str:
@@ -153,19 +150,6 @@ def rates_line(name: str, rates: tuple[ModelRate, ...]) -> str:
     return gettext("{head}: {rates}.", head=head, rates=texts)
 
 
-def format_chance(share: float) -> str:
-    """Return a share of perturbed runs, truncated to the range in which it is meaningful.
-
-    Examples
-    --------
-    >>> format_chance(0.0), format_chance(0.5), format_chance(1.0)
-    ('below 3 %', '50 %', 'above 98 %')
-    """
-    if share < MIN_SHARE:
-        return gettext("below {share:.0%}", share=MIN_SHARE)
-    return gettext("above {share:.0%}", share=MAX_SHARE) if share > MAX_SHARE else format_percent(share)
-
-
 def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, str]:
     """Return a sentence on the overturning probability of a perturbed block, and one on the varied parameters.
 
@@ -175,25 +159,23 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
     block : Block
         The median of the samples.
     """
-    values = {
-        "fallen": perturbation.overturned,
-        "runs": perturbation.runs,
-        "share": format_chance(perturbation.probability),
-        "of": gettext(perturbation.interval_of),
-    }
-    low, high = perturbation.probability_interval
-    if perturbation.probability < MIN_SHARE:
-        text = N_(
-            "overturning probability {share} ({fallen} of {runs} samples). On shaking tables, the object overturned in 3 % of the "
-            "runs for which no computed sample did."
-        )
-    elif perturbation.probability > MAX_SHARE:
-        text = N_(
-            "overturning probability {share} ({fallen} of {runs} samples). On shaking tables, the object stood in 2 % of the runs "
-            "for which all computed samples overturned."
-        )
-    else:
-        text = N_("overturning probability {share} ({fallen} of {runs} samples; 95 % CI {low} to {high}, {of}).")
+    overturned, runs = perturbation.overturned, perturbation.runs
+    text = gettext(
+        "overturning probability {share} ({fallen} of {runs} samples; 95 % CI {interval}, {of}).",
+        share=format_share(perturbation.probability),
+        fallen=overturned,
+        runs=runs,
+        interval=format_share_interval(perturbation.probability_interval),
+        of=gettext(perturbation.interval_of),
+    )
+    notes = []
+    # fitted real rocks: the ends of the range of shares are not certain
+    if overturned == 0:
+        notes.append(gettext("On shaking tables, the object overturned in 3 % of the runs for which no computed sample did."))
+    elif overturned == runs:
+        notes.append(gettext("On shaking tables, the object stood in 2 % of the runs for which all computed samples overturned."))
+    if (left_out := left_out_versions(perturbation.no_answer, runs)) is not None:
+        notes.append(gettext("{note}.", note=left_out))
     s = perturbation.spread
     sizes = lazy_gettext("width and height ±{share}", share=format_share(s.size))
     variation = gettext(
@@ -204,8 +186,4 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
         amplitude=format_share(s.amplitude),
         azimuth=s.azimuth_deg,
     )
-    text, left_out = (
-        gettext(text, **values, low=format_chance(low), high=format_chance(high)),
-        left_out_versions(perturbation.no_answer, perturbation.runs),
-    )
-    return with_notes(text, [] if left_out is None else [gettext("{note}.", note=left_out)]), variation
+    return with_notes(text, notes), variation

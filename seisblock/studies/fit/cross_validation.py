@@ -10,7 +10,7 @@ from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.studies.fit.dataset import Experiment
 from seisblock.studies.fit.importance_sampling import ImportanceSample
 from seisblock.studies.fit.likelihood import LapseRate, log_likelihood, log_likelihoods_held_out
-from seisblock.studies.intervals import wilson_interval
+from seisblock.studies.intervals import clopper_pearson
 
 CALIBRATION_BINS = (0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0)
 """Edges of the calibration bins, probability."""
@@ -30,7 +30,7 @@ class CalibrationBin:
     share : float, 1
         Observed share of the event.
     share_interval : (float, float), 1
-        Wilson, 95 %.
+        Clopper-Pearson, 95 %.
     """
 
     low: float
@@ -52,7 +52,7 @@ class HeldOutScores:
     accuracy : float, 1
         Weighted share of the outcomes with a prediction on the right side of one half.
     accuracy_interval : (float, float), 1
-        Wilson, 95 %.
+        Clopper-Pearson, 95 %.
     brier : float, 1
         Mean square of the probability minus the outcome ([Brier1950]_ eq. (2)); 0 at best.
     log_score : float, 1
@@ -148,7 +148,7 @@ def score_predictions(
     return HeldOutScores(
         int(folds.max()) + 1,
         accuracy,
-        wilson_interval(round(accuracy * count), count),
+        clopper_pearson(round(accuracy * count), count),
         float(share @ (probability - outcomes) ** 2),
         float(-share @ np.log(outcome_probability)),
         float(share @ ((rate > 0.5) == (outcomes > 0.5))),
@@ -182,7 +182,7 @@ def calibration(probability: FloatArray, outcomes: FloatArray, weights: FloatArr
             continue
         share = float(weights[in_bin] @ outcomes[in_bin]) / weight
         count = max(round(weight), 1)
-        interval = wilson_interval(round(share * count), count)
+        interval = clopper_pearson(round(share * count), count)
         mean = float(weights[in_bin] @ probability[in_bin]) / weight
         bins.append(CalibrationBin(CALIBRATION_BINS[k], CALIBRATION_BINS[k + 1], int(in_bin.sum()), mean, share, interval))
     return tuple(bins)

@@ -11,7 +11,7 @@ from seisblock.core.i18n import N_
 from seisblock.core.typing import Progress
 from seisblock.models.rock.options import RockOptions
 from seisblock.records import Motion
-from seisblock.studies.intervals import wilson_interval
+from seisblock.studies.intervals import clopper_pearson
 from seisblock.studies.sampling import ParameterVariation, Samples, sample
 
 MODEL_SCATTER = N_("parameter variation only")
@@ -31,7 +31,7 @@ class Perturbation(DisplayMixin):
     probability : float
         Their ratio.
     probability_interval : (float, float), 1
-        Wilson's interval at 95 %: sampling interval only.
+        Clopper-Pearson interval at 95 %: sampling interval only.
     spread : ParameterVariation
     seed : int
     ranges : ParameterRanges or None
@@ -111,7 +111,7 @@ def summarize(samples: Samples, block: Block) -> Perturbation:
         samples.completed,
         count,
         samples.probability,
-        wilson_interval(count, samples.completed),
+        clopper_pearson(count, samples.completed),
         samples.variation,
         samples.seed,
         ranges=block.ranges and block.ranges.without("width_m", "height_m", "mu"),
