@@ -192,7 +192,7 @@ def record_summary(tab: Tab, job: Job) -> str:
                 gettext("length"),
                 gettext("{duration:.4g} s, {samples} samples", duration=record["dt_s"] * record["samples"], samples=record["samples"]),
             ),
-            (gettext("JMA intensity"), "" if intensity is None else f"{intensity:.1f} ({gettext(jma_class(intensity))})"),
+            (gettext("JMA intensity"), "" if intensity is None else f"{intensity:.2f} ({gettext(jma_class(intensity))})"),
             (gettext("proved"), join_list(checks)),
             (gettext("assumed"), join_list(assumed)),
         ],
@@ -262,7 +262,8 @@ def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "probability": assessed["overturning_probability"],
         "text": format_percent(assessed["overturning_probability"], "g"),
-        "verdict": name_pile(text, document["parameters"]["block"]["stone_count"]),
+        # a scan has no block
+        "verdict": name_pile(text, document["parameters"].get("block", {}).get("stone_count", 1)),
         "level": LEVELS[assessed["class"]],
         "rows": [
             (

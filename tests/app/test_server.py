@@ -135,11 +135,13 @@ def test_record_summary_escapes_names_and_leaves_out_lines_on_output_files(tmp_p
         "station": hostile, "station_name": hostile, "source": hostile, "start": None, "local_start": None, "earthquake": None,
         "dt_s": 0.01, "samples": 100, "epicentral_distance_km": None, "checks": {"proved": ["count"], "assumed": []},
     }  # fmt: skip
-    document = {"record": record, "results": [{"component": hostile, "pga_m_s2": 1.0, "pgv_m_s": 0.1, "jma_intensity": None}]}
+    document = {"record": record, "results": [{"component": hostile, "pga_m_s2": 1.0, "pgv_m_s": 0.1, "jma_intensity": 5.46}]}
     job = finished_job(tmp_path, document, f"warning: {hostile}\nwrote {tmp_path}/figure.png\n")
     text = views.record_summary(FakeTab, job)
     assert "<script" not in text and "&lt;script&gt;" in text
     assert "wrote" not in text and "sample count" in text
+    # 5.5 would be of the next class
+    assert "5.46 (5+)" in text
 
 
 def test_object_result_shows_the_probability_of_the_object(tmp_path):
@@ -147,9 +149,11 @@ def test_object_result_shows_the_probability_of_the_object(tmp_path):
     base = {"interval": [0.1, 0.2], "runs": 200, "moved_probability": 0.5, "models": [], "least_factor": None, "greatest_factor": None,
             "predictable_until_s": None, "class": "may overturn"}  # fmt: skip
     rows = [{"assessment": {**base, "overturning_probability": p, "direction": d}} for p, d in ((0.145, "NS"), (0.155, "EW"))]
-    document = {"results": rows, "object": {**base, "overturning_probability": 0.175, "direction": "EW"}}
+    document = {"parameters": {}, "results": rows, "object": {**base, "overturning_probability": 0.175, "direction": "EW"}}
     text = views.object_result(FakeTab, finished_job(tmp_path, document, line=("respond", "a.csv", "--block", "statue")))
-    assert 'data-value="0.175">17.5' in text and "worst direction EW" in text
+    assert 'data-value="0.175">17.5' in text and "worst direction EW" in text and "rigid block" not in text
+    job = finished_job(tmp_path, {**document, "parameters": {"block": {"stone_count": 2}}}, line=("respond", "a.csv", "--block", "statue"))
+    assert "2 stones as one rigid block, object: may overturn" in views.object_result(FakeTab, job)
     assert "seisblock respond a.csv --block statue" in text
 
 
