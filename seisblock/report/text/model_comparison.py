@@ -171,9 +171,9 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
     notes = []
     # fitted real rocks: the ends of the range of shares are not certain
     if overturned == 0:
-        notes.append(gettext("On shaking tables, the object overturned in 3 % of the runs for which no computed sample did."))
+        notes.append(gettext("On shaking tables, 3 % overturned where no computed sample did."))
     elif overturned == runs:
-        notes.append(gettext("On shaking tables, the object stood in 2 % of the runs for which all computed samples overturned."))
+        notes.append(gettext("On shaking tables, 2 % stood where all computed samples overturned."))
     if (left_out := left_out_versions(perturbation.no_answer, runs)) is not None:
         notes.append(gettext("{note}.", note=left_out))
     s = perturbation.spread
