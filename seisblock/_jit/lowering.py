@@ -1,0 +1,116 @@
+"""Lowering of kernels from numba's intermediate representation to LLVM's."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numba.core import cgutils, ir
+from numba.core import types as numba_types
+from numba.core.lowering import Lower
+from numba.cpython.slicing import fix_index
+
+types: Any = numba_types
+
+
+class KernelLower(Lower):  # type: ignore[misc]
+    """Numba's lowering with a fifth of the LLVM instructions for items and rows of C-contiguous arrays and for loops over a range.
+
+    Numba copies the descriptor of an array to memory for each item: to write, parse and optimise this takes longer than all arithmetic.
+    """
+
+    def lower_getitem(self, resty: Any, expr: Any, value: Any, index: Any, signature: Any) -> Any:
+        """Load an item or view a row; other containers, slices and views that are reference-counted are left to numba."""
+        address = self._address(value.name, index.name)
+        is_view = isinstance(resty, types.Array)
+        if address is None or (is_view and self.context.enable_nrt):
+            return super().lower_getitem(resty, expr, value, index, signature)
+        array, size = self.typeof(value.name), self.context.get_constant(types.intp, 1)
+        if not is_view:
+            return self.context.cast(self.builder, self.context.unpack_value(self.builder, array.dtype, address), array.dtype, resty)
+        descriptor, view = self.loadvar(value.name), self.context.get_constant_undef(resty)
+        for name in ("meminfo", "parent", "itemsize"):
+            view = self._insert(resty, view, self._extract(array, descriptor, name), name)
+        for axis in range(resty.ndim):
+            for name in ("shape", "strides"):
+                length = self._extract(array, descriptor, name, array.ndim - resty.ndim + axis)
+                view = self._insert(resty, view, length, name, axis)
+                size = self.builder.mul(size, length) if name == "shape" else size
+        return self._insert(resty, self._insert(resty, view, size, "nitems"), address, "data")
+
+    def lower_setitem(self, target_var: Any, index_var: Any, value_var: Any, signature: Any) -> Any:
+        """Store an item; rows, slices and other containers are left to numba."""
+        array, kind = self.typeof(target_var.name), self.typeof(value_var.name)
+        address = self._address(target_var.name, index_var.name) if isinstance(kind, types.Number | types.Boolean) else None
+        if address is None or len(_tuple_of(self.typeof(index_var.name))) < array.ndim:
+            return super().lower_setitem(target_var, index_var, value_var, signature)
+        value = self.context.cast(self.builder, self.loadvar(value_var.name), kind, array.dtype)
+        return self.context.pack_value(self.builder, array.dtype, value, address)
+
+    def lower_inst(self, inst: Any) -> Any:
+        """Store an item of an array at constants, for which numba would first look for a special function."""
+        if isinstance(inst, ir.StaticSetItem) and isinstance(self.typeof(inst.target.name), types.Array):
+            return self.lower_setitem(inst.target, inst.index_var, inst.value, self.fndesc.calltypes[inst])
+        return super().lower_inst(inst)
+
+    def lower_expr(self, resty: Any, expr: Any) -> Any:
+        """Read an array at constants; begin a loop over a range of step 1 and advance it."""
+        builder, operation = self.builder, expr.op
+        kind = self.typeof(expr.value.name) if operation in ("static_getitem", "getiter", "iternext", "pair_first", "pair_second") else None
+        if isinstance(kind, types.Array):
+            return self.lower_getitem(resty, expr, expr.value, expr.index_var, self.fndesc.calltypes[expr])
+        if isinstance(kind, types.RangeType) and len(self.func_ir.get_definition(expr.value).args) < 3:
+            start, stop = (self._extract(kind, self.loadvar(expr.value.name), name) for name in ("start", "stop"))
+            zero, steps = start.type(0), builder.sub(stop, start)
+            steps = builder.select(builder.icmp_signed(">", steps, zero), steps, zero)
+            iterator = self._insert(resty, self.context.get_constant_undef(resty), start.type(1), "step")
+            for name, value in (("iter", start), ("count", steps)):
+                iterator = self._insert(resty, iterator, cgutils.alloca_once_value(builder, value), name)
+            return iterator
+        if isinstance(kind, types.RangeIteratorType):
+            iterator = self.loadvar(expr.value.name)
+            place, count, step = (self._extract(kind, iterator, name) for name in ("iter", "count", "step"))
+            value, steps = builder.load(place), builder.load(count)
+            builder.store(builder.add(value, step), place)
+            builder.store(builder.sub(steps, steps.type(1)), count)
+            pair = self._insert(resty, self.context.get_constant_undef(resty), value, "first")
+            return self._insert(resty, pair, builder.icmp_signed(">", steps, steps.type(0)), "second")
+        if isinstance(kind, types.Pair) and isinstance(kind.first_type, types.Integer):
+            return self._extract(kind, self.loadvar(expr.value.name), operation.removeprefix("pair_"))
+        return super().lower_expr(resty, expr)
+
+    def alloca_lltype(self, name: str, lltype: Any, datamodel: Any = None) -> Any:
+        """Allocate a variable; numba would also ask LLVM for its size, for debuggers."""
+        return cgutils.alloca_once(self.builder, lltype, name=name, zfill=False)
+
+    def _extract(self, kind: Any, value: Any, name: str, *axis: int) -> Any:
+        """Return a field of a structure, or one of its items."""
+        return self.builder.extract_value(value, (self.context.data_model_manager[kind].get_field_position(name), *axis))
+
+    def _insert(self, kind: Any, value: Any, field: Any, name: str, *axis: int) -> Any:
+        """Return a structure with one field, or one of its items, replaced."""
+        return self.builder.insert_value(value, field, (self.context.data_model_manager[kind].get_field_position(name), *axis))
+
+    def _address(self, array_name: str, index_name: str) -> Any:
+        """Return the address of an item or row of a C-contiguous array, None for anything else."""
+        array, index = self.typeof(array_name), self.typeof(index_name)
+        kinds = _tuple_of(index)
+        if not (
+            isinstance(array, types.Array) and array.layout == "C" and array.aligned and all(isinstance(k, types.Integer) for k in kinds)
+        ):
+            return None
+        builder, descriptor, value = self.builder, self.loadvar(array_name), self.loadvar(index_name)
+        offset = self.context.get_constant(types.intp, 0)
+        for axis in range(array.ndim):
+            size = self._extract(array, descriptor, "shape", axis)
+            offset = builder.mul(offset, size) if axis else offset
+            if axis < len(kinds):
+                item = builder.extract_value(value, axis) if isinstance(index, types.BaseTuple) else value
+                item = self.context.cast(builder, item, kinds[axis], types.intp)
+                is_positive = isinstance(kinds[axis], types.IntegerLiteral) and kinds[axis].literal_value >= 0
+                offset = builder.add(offset, item if is_positive or not kinds[axis].signed else fix_index(builder, item, size))
+        return builder.gep(self._extract(array, descriptor, "data"), [offset])
+
+
+def _tuple_of(index: Any) -> tuple[Any, ...]:
+    """Return the types of an index, one per axis."""
+    return tuple(index) if isinstance(index, types.BaseTuple) else (index,)

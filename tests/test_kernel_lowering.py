@@ -1,0 +1,117 @@
+"""Items and rows of arrays and loops over a range have the same results in a kernel as in Python."""
+
+import numpy as np
+import pytest
+
+from seisblock import _jit
+
+_t = _jit.types()
+CUBE = _t.Array(_t.float64, 3, "C")
+FLAGS = _t.Array(_t.boolean, 1, "C")
+COUNTS = _t.Array(_t.int64, 2, "C")
+COLUMNS = _t.Array(_t.float64, 2, "A")
+
+
+@pytest.fixture(autouse=True)
+def no_cache(monkeypatch):
+    """Nothing is written to the cache."""
+    monkeypatch.setattr(_jit.cache, "load_or_compile", lambda compile_kernel, function, variant="": compile_kernel(cache=False))
+
+
+@pytest.fixture
+def cube():
+    return np.random.default_rng(5).normal(size=(3, 4, 5))
+
+
+@pytest.mark.parametrize("index", [(0, 0, 0), (2, 3, 4), (-1, -4, 2), (1, -1, -5)])
+def test_items_are_read_and_stored_at_positive_and_negative_indices(cube, index):
+    @_jit.kernel(_t.float64(CUBE, _t.int64, _t.int32, _t.uint8))
+    def double(a, i, j, k):
+        a[i, j, k] *= 2.0
+        a[-1, 0, k] = i
+        a[0, -1, -1] += 3
+        return a[i, j, k] + a[-1, 3, 4] - a[2, -2, 0]
+
+    i, j, k = index[0], index[1], index[2] % 5
+    other = cube.copy()
+    other[i, j, k] *= 2.0
+    other[-1, 0, k] = i
+    other[0, -1, -1] += 3
+    assert double(cube, i, j, k) == other[i, j, k] + other[-1, 3, 4] - other[2, -2, 0]
+    assert (cube == other).all()
+
+
+@pytest.mark.parametrize("allocates", [False, True])
+def test_rows_are_views_of_their_array(cube, allocates):
+    @_jit.kernel(_t.float64(CUBE, _t.int64, _t.int64), allocates=allocates)
+    def shift(a, i, j):
+        plane, row, last = a[i], a[i, j], a[-1][0]
+        row[1] = plane[j, 2] + plane.shape[1] * plane.size
+        last[4] = row[3]
+        plane[0] = 7.0
+        return row.size + last.sum() + plane.strides[0] + plane[j].shape[0]
+
+    other = cube.copy()
+    plane, row, last = other[1], other[1, -2], other[-1, 0]
+    row[1] = plane[-2, 2] + plane.shape[1] * plane.size
+    last[4] = row[3]
+    plane[0] = 7.0
+    assert shift(cube, 1, -2) == pytest.approx(row.size + last.sum() + plane.strides[0] + plane[-2].shape[0], rel=1e-15)
+    assert (cube == other).all()
+
+
+def test_types_of_items_are_converted():
+    @_jit.kernel(_t.float64(FLAGS, COUNTS, _t.int64))
+    def mark(flags, counts, i):
+        flags[i] = not flags[i]
+        counts[i, 1] = flags[i]
+        counts[0, 0] = 2.9
+        return counts[i, 1] / 2 if flags[i] else -1.5
+
+    flags, counts = np.array([True, False]), np.full((2, 2), 5)
+    assert mark(flags, counts, 1) == 0.5
+    assert flags.tolist() == [True, True]
+    assert counts.tolist() == [[2, 5], [5, 1]]
+    assert mark(flags, counts, 0) == -1.5
+    assert counts.tolist() == [[2, 0], [5, 1]]
+
+
+def test_strided_arrays_have_their_own_steps(cube):
+    @_jit.kernel(_t.float64(COLUMNS, _t.int64))
+    def second(a, i):
+        a[i, 1] = a[-1, 0]
+        return a[i][1] - a[i, -2]
+
+    columns = cube[:, ::2, 1]
+    assert second(columns, 1) == cube[2, 0, 1] - cube[1, 0, 1]
+    assert cube[1, 2, 1] == cube[2, 0, 1]
+
+
+@pytest.mark.parametrize(("start", "stop"), [(0, 4), (3, 3), (5, -2), (-3, 2)])
+@pytest.mark.parametrize("step", [1, 2, -1, -3])
+def test_loops_over_a_range_have_the_values_of_python(start, stop, step):
+    @_jit.kernel(_t.int64(_t.int64, _t.int64, _t.int64, _t.Array(_t.int64, 1, "C")))
+    def walk(start, stop, step, seen):
+        n = 0
+        for i in range(start, stop):
+            if i == 1:
+                continue
+            for j in range(i):
+                seen[n] = 10 * i + j
+                n += 1
+                if j == 2:
+                    break
+        for i in range(start, stop, step):
+            seen[n] = i
+            n += 1
+        for i in range(start):
+            seen[n] = -i
+            n += 1
+        return n
+
+    seen, expected = np.zeros(60, dtype=np.int64), []
+    n = walk(start, stop, step, seen)
+    for i in range(start, stop):
+        expected += [10 * i + j for j in range(min(i, 3)) if i != 1]
+    expected += [*range(start, stop, step), *(-i for i in range(start))]
+    assert seen[:n].tolist() == expected
