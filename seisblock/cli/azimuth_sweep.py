@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
+from seisblock.cli.write_results import write_results
 from seisblock.core.i18n import N_
 from seisblock.records.motion import ALL_AZIMUTHS
 
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from seisblock.bodies.block import Block
     from seisblock.cli.bodies.block import BodyChoice
     from seisblock.core.results import Response
+    from seisblock.output.json.schema import Document
     from seisblock.records import Motion, Record
     from seisblock.studies.sampling import ParameterVariation
 
@@ -87,7 +90,21 @@ def sweep_block(choice: BodyChoice, motion: Motion, directions: Sequence[Any]) -
     return choice.body.block_toward(directions[0].azimuth_deg) if directions else choice.block_for_motion(motion)
 
 
-def assessed_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure]:
+def write_assessed(
+    document: Document,
+    output: OutputOptions,
+    responses: Sequence[Response[Any]],
+    extras: Sequence[Mapping[str, Any]],
+    tables: Callable[[], Iterable[Any]],
+) -> None:
+    """Print responses with their assessments and write the requested files, see :func:`seisblock.cli.write_results.write_results`."""
+    from seisblock.report.text.assessment import first_probability
+
+    figure = _assessed_figure(responses, extras, gal=output.gal)
+    write_results(document, output, responses=responses, figure=figure, tables=tables, probability=first_probability(extras))
+
+
+def _assessed_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure]:
     """Return a function that draws the azimuth sweep, or the time histories with the overturning probabilities."""
 
     def draw() -> Figure:

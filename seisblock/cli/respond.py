@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from seisblock.bodies.scan.body import ScannedBody
-from seisblock.cli.azimuth_sweep import assessed_figure, ranked_sweep, sweep_block, sweep_motions
+from seisblock.cli.azimuth_sweep import ranked_sweep, sweep_block, sweep_motions, write_assessed
 from seisblock.cli.bodies.free_standing import FreeStandingChoice, choose_free_standing, free_standing_list_options
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
@@ -17,7 +17,6 @@ from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.sampling_options import pop_spreads, ranges_replaced, version_options
 from seisblock.cli.variants import check_variants, describe_first, list_variants, variant_params, write_variants
-from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ParameterError
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rigid3d.options import Rigid3dOptions
@@ -76,16 +75,14 @@ def respond(
     from seisblock.cli.progress import progress
     from seisblock.models.respond.solve import solve_respond
     from seisblock.report.json.respond import document
-    from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.respond import tables
     from seisblock.studies.azimuth_probability import average_azimuths
-    from seisblock.studies.respond.probability import check_moved, summarize
+    from seisblock.studies.respond.probability import summarize
     from seisblock.studies.sampling import ParameterVariation, sample
     from seisblock.studies.solvers.respond import assess_respond
 
     variants = list_variants(params)
     variation = ParameterVariation(**pop_spreads(params, *VARIED_PARAMETERS))
-    check_moved(moved)
     replaced = ranges_replaced()
     first = variant_params(params, variants[0])
     choice = choose_free_standing({**first, "gal": output.gal})
@@ -132,14 +129,7 @@ def respond(
     if len(variants) > 1:
         write_variants(document(responses, extras), output, responses, extras)
         return
-    write_results(
-        document(responses, extras),
-        output,
-        responses=responses,
-        figure=assessed_figure(responses, extras, gal=output.gal),
-        tables=lambda: tables(responses, extras, gal=output.gal),
-        probability=first_probability(extras),
-    )
+    write_assessed(document(responses, extras), output, responses, extras, lambda: tables(responses, extras, gal=output.gal))
 
 
 def _has_three_dimensions(three_d: bool | None, choice: FreeStandingChoice, params: Mapping[str, Any]) -> bool:

@@ -74,23 +74,20 @@ def solve_in_space(
     seed: int,
 ) -> None:
     """Solve the records in three dimensions with samples, and write the results."""
-    from seisblock.cli.azimuth_sweep import assessed_figure, sweep_motions
+    from seisblock.cli.azimuth_sweep import sweep_motions, write_assessed
     from seisblock.cli.progress import progress
-    from seisblock.cli.write_results import write_results
     from seisblock.models.rigid3d.describe import contact_summary
     from seisblock.models.rigid3d.solve import solve_rigid3d
     from seisblock.report.json.rigid3d import document
-    from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.rigid3d import tables
     from seisblock.studies.azimuth_probability import sample_orientations
     from seisblock.studies.respond.azimuths import rigid3d_directions
-    from seisblock.studies.respond.probability import check_moved, summarize_spatial
+    from seisblock.studies.respond.probability import summarize_spatial
     from seisblock.studies.sampling import sample
     from seisblock.studies.solvers.rigid3d import assess_rigid3d
 
     if choice.mu_kinetic not in (None, choice.mu):
         raise BodyError("three dimensions use one friction coefficient, and this body has a lower kinetic one: give --mu")
-    check_moved(moved)
     info("body: {says}", says=choice.description)
     body = choice.body
     if isinstance(body, ScannedBody):
@@ -122,11 +119,4 @@ def solve_in_space(
             extra["directions"] = directions
         responses.append(response)
         extras.append(extra)
-    write_results(
-        document(responses, extras),
-        output,
-        responses=responses,
-        figure=assessed_figure(responses, extras, gal=output.gal),
-        tables=lambda: tables(responses, extras, gal=output.gal),
-        probability=first_probability(extras),
-    )
+    write_assessed(document(responses, extras), output, responses, extras, lambda: tables(responses, extras, gal=output.gal))

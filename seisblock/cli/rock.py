@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from seisblock.cli.azimuth_sweep import assessed_figure, ranked_sweep, sweep_block, sweep_motions
+from seisblock.cli.azimuth_sweep import ranked_sweep, sweep_block, sweep_motions, write_assessed
 from seisblock.cli.bodies.options import azimuth_option, block_list_options
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
@@ -19,7 +19,6 @@ from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import MUS, Count
 from seisblock.cli.variants import check_variants, describe_first, list_variants, variant_params, write_variants
-from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ComponentError, ParameterError
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.limits import MAX_RUNS
@@ -113,7 +112,6 @@ def rock(
     from seisblock.models.rock.outcome import friction_suffices
     from seisblock.models.rock.solve import solve_rock
     from seisblock.report.json.rock import document
-    from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.rock import tables
     from seisblock.studies.azimuth_probability import average_azimuths
     from seisblock.studies.model_comparison import compare_models
@@ -171,12 +169,12 @@ def rock(
     if len(variants) > 1:
         write_variants(document(responses, extras, margin_limit=margin_limit if margin else None), output, responses, extras)
         return
-    write_results(
+    write_assessed(
         document(responses, extras, margin_limit=margin_limit if margin else None, mu=friction),
         output,
-        responses=responses,
-        figure=assessed_figure(responses, extras, gal=output.gal),
-        tables=lambda: chain(
+        responses,
+        extras,
+        lambda: chain(
             tables(responses, extras, gal=output.gal, mu=friction),
             rock_hint(
                 source,
@@ -186,7 +184,6 @@ def rock(
                 suffices=all(extra.get("friction_suffices", True) for extra in extras),
             ),
         ),
-        probability=first_probability(extras),
     )
 
 

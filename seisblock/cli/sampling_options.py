@@ -9,6 +9,7 @@ import click
 from seisblock.cli.command import Decorator, add_options, option
 from seisblock.cli.option_checks import given_flags
 from seisblock.cli.types import LENGTH, Count
+from seisblock.core import checks
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS
 
@@ -55,9 +56,10 @@ def pop_spreads(params: dict[str, Any], *names: str) -> dict[str, float]:
     Raises
     ------
     ParameterError
-        If widths are given without samples.
+        If widths are given without samples, or the displacement that counts as moved is not positive.
     """
     _check_options(*(f"vary_{name}" for name in names), "moved", "seed")
+    checks.positive("the residual displacement that counts as moved", click.get_current_context().params["moved"], "m")
     return {"azimuth_deg" if name == "azimuth" else name: params.pop(f"vary_{name}") for name in names}
 
 

@@ -204,17 +204,15 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
     """Solve the pile under each record."""
     from dataclasses import replace
 
-    from seisblock.cli.azimuth_sweep import assessed_figure
+    from seisblock.cli.azimuth_sweep import write_assessed
     from seisblock.cli.progress import progress
     from seisblock.core.errors import ParameterError
     from seisblock.models.stack.solve import solve_stack
     from seisblock.readers._memory import trim_heap
     from seisblock.report.json.stack import document
-    from seisblock.report.text.assessment import first_probability
     from seisblock.report.text.stack import tables
     from seisblock.studies.model_comparison import compare_pile_models
     from seisblock.studies.respond.pile_probability import summarize
-    from seisblock.studies.respond.probability import check_moved
     from seisblock.studies.sampling import ParameterVariation, sample
     from seisblock.studies.solvers.stack import assess_pile
 
@@ -223,7 +221,6 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
     if inset_given and variation.inset and params["points"] != EDGES:
         raise ParameterError("--vary-inset has no effect with --contact grid={points}: omit one of them", points=params["points"])
     runs, seed, moved = (params.pop(name) for name in ("runs", "seed", "moved"))
-    check_moved(moved)
     options = StackOptions(contact=contact, **params)
     is_requested = bool(given_flags(["runs", "moved", "seed", *(f"vary_{name}" for name in VARIED_PARAMETERS)]))
     responses, extras = [], []
@@ -251,14 +248,7 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
             else:
                 extra["agreement"] = compare_pile_models(responses[-1])
             extras.append(extra)
-    write_results(
-        document(responses, extras),
-        output,
-        responses=responses,
-        tables=lambda: tables(responses, extras, gal=output.gal),
-        figure=assessed_figure(responses, extras, gal=output.gal),
-        probability=first_probability(extras),
-    )
+    write_assessed(document(responses, extras), output, responses, extras, lambda: tables(responses, extras, gal=output.gal))
 
 
 def _is_quick(body: Pile, motion: Motion) -> bool:

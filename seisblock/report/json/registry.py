@@ -61,10 +61,9 @@ def response_document(response: Response[Any]) -> Document:
     """Return the JSON document of one response, with the keys that studies add for its model."""
     get_solver(response.model)  # an unknown model has no document
     module_name = f"{__package__}.{response.model}"
-    if not importlib.util.find_spec(module_name):
-        return document_of([response])
-    document: Document = importlib.import_module(module_name).response_document(response)
-    return document
+    module = importlib.import_module(module_name) if importlib.util.find_spec(module_name) else None
+    make_document = getattr(module, "response_document", None)
+    return make_document(response) if make_document else document_of([response], document_schemas(response.model)[0])
 
 
 def json_schema(command: str) -> dict[str, Any]:

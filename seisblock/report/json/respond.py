@@ -34,8 +34,3 @@ RESPOND = solver_schema(
 def document(responses: Sequence[Response[RespondOutcome]], extras: Sequence[Mapping[str, Any]]) -> Document:
     """Return the document of one run per direction, with probability and azimuth sweep."""
     return solver_document(responses, RESPOND, results=list(map(entry_keys, extras)), extra=object_keys(responses, extras))
-
-
-def response_document(response: Response[Any]) -> Document:
-    """Return the document of one response."""
-    return document([response], [{}])

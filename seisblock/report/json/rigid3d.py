@@ -50,8 +50,3 @@ def document(responses: Sequence[Response[Rigid3dOutcome]], extras: Sequence[Map
     entries = list(map(assessment_entry, worst.values()))
     extra = {"object": entries[0] if len(entries) == 1 else entries} if entries else {}
     return solver_document(responses, RIGID3D, results=list(map(entry_keys, extras)), extra=extra)
-
-
-def response_document(response: Response[Any]) -> Document:
-    """Return the document of one response."""
-    return document([response], [{}])

@@ -67,8 +67,3 @@ def study_document(parameters: Mapping[str, Any], points: Iterable[tuple[Record,
 def point_entry(point: SlidePoint) -> Result:
     """Return the entry of one point of a study."""
     return to_entry(SLIDE_POINT, point, vertical_scale=point.vertical)
-
-
-def response_document(response: Response[Any]) -> Document:
-    """Return the document of one response."""
-    return document([response])

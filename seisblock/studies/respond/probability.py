@@ -6,15 +6,14 @@ granite rocks, 3 % of those with 0 of 20 samples overturning did overturn, and 2
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.uncertainty import ParameterRanges
+from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
-from seisblock.core.errors import ParameterError
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome
@@ -148,15 +147,9 @@ def respond_probability(
     >>> respond_probability(Block(0.24, 0.8), pulse, RespondOptions(mu=0.5), runs=20).overturned
     1.0
     """
-    check_moved(moved_m)
+    checks.positive("the residual displacement that counts as moved", moved_m, "m")
     samples = sample("respond", block, motion, options, runs, versions, seed=seed, progress=progress)
     return summarize(samples, block, moved_m)
-
-
-def check_moved(moved_m: float) -> None:
-    """Raise ParameterError unless the displacement that counts as moved (m) is positive."""
-    if not (math.isfinite(moved_m) and moved_m > 0.0):
-        raise ParameterError("the residual displacement that counts as moved must be positive, found {found} m", found=moved_m)
 
 
 def summarize(samples: Samples, block: Block, moved_m: float = MOVED_M) -> Probability:
