@@ -87,7 +87,7 @@ def run_batch(
         print_result(to_json(document(tally, plan, str(out), notes)))
     else:
         print_tables(text_output.tables(tally, reasons))
-    if not tally.answers:
+    if not tally.total("answers_count"):
         if out.exists():
             raise RecordError("no row has a result: {path} is unchanged", path=out)
         raise RecordError("no row has a result: {path} is not written", path=out)

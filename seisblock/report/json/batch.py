@@ -7,9 +7,10 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.entries import entry_type, to_entry
+from seisblock.output.json.schema import Document, DocumentSchema
 from seisblock.references import papers
-from seisblock.studies.batch.tally import Tally
+from seisblock.studies.batch.tally import BodyCounts, Tally
 from seisblock.studies.batch.task import Plan
 
 
@@ -34,51 +35,17 @@ class BatchParameters(Struct, frozen=True, kw_only=True):
     seed: int
 
 
-class BatchEntry(Result, frozen=True, kw_only=True):
-    """Counts of one body.
-
-    Parameters
-    ----------
-    body : str
-    answers_count, failures_count : int
-        Rows with and without a result.
-    happened_count : int
-        Rows with the event of the solver: overturning, sliding, jump, uplift, or fall of a stone.
-    objects_count, objects_happened_count : int
-        Objects, one per record, with a result, and with the event under any component.
-    """
-
-    body: str
-    answers_count: int
-    failures_count: int
-    happened_count: int
-    objects_count: int
-    objects_happened_count: int
-
-
+BATCH_ENTRY = entry_type("BatchEntry", BodyCounts)
 TOTALS = {
     "records_count": Annotated[int, Meta(description="Number of records.")],
     "unread_count": Annotated[int, Meta(description="Records and components that could not be read.")],
 }
-BATCH = DocumentSchema("batch", BatchParameters, BatchEntry, TOTALS)
+BATCH = DocumentSchema("batch", BatchParameters, BATCH_ENTRY, TOTALS)
 
 
 def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Document:
     """Return the document of a finished batch."""
-    entries = (
-        (
-            None,
-            BatchEntry(
-                body=c.body,
-                answers_count=c.answers,
-                failures_count=c.failures,
-                happened_count=c.events,
-                objects_count=c.objects,
-                objects_happened_count=c.object_events,
-            ),
-        )
-        for c in tally.sorted_counts()
-    )
+    entries = ((None, to_entry(BATCH_ENTRY, count)) for count in tally.sorted_counts())
     return BATCH.document(
         BatchParameters(solver=plan.solver, table=table, components=plan.components, runs=plan.runs, seed=plan.seed),
         entries,

@@ -41,22 +41,23 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
         Translatable messages by their English text.
     """
     event = tally.solver.event
-    total = gettext(
-        _EVENT_COUNT_TEXTS.get(event, N_("event in {happened} of {answers} cases")), happened=tally.event_count, answers=tally.answers
+    answers, happened, objects, objects_happened = map(
+        tally.total, ("answers_count", "happened_count", "objects_count", "objects_happened_count")
     )
-    if tally.objects < tally.answers:
+    total = gettext(_EVENT_COUNT_TEXTS.get(event, N_("event in {happened} of {answers} cases")), happened=happened, answers=answers)
+    if objects < answers:
         total = gettext(
             "{event}: {happened} of {objects} objects under at least one component; {total}",
             event=gettext(_EVENT_HEADINGS.get(event, N_("event"))),
-            happened=tally.object_events,
-            objects=tally.objects,
+            happened=objects_happened,
+            objects=objects,
             total=total,
         )
     yield styled_line(
         gettext("{whole} (bodies: {bodies}, records: {records})", whole=total, bodies=len(tally.bodies), records=tally.records), "bold"
     )
     bodies = tally.sorted_counts()
-    if bodies and tally.answers:
+    if bodies and answers:
         header = [
             gettext("body"),
             gettext("objects"),
@@ -65,7 +66,13 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
             gettext("no result"),
         ]
         rows = [
-            [gettext(c.body), c.objects, c.object_events, format_share(c.object_events / c.objects) if c.objects else None, c.failures]
+            [
+                gettext(c.body),
+                c.objects_count,
+                c.objects_happened_count,
+                format_share(c.objects_happened_count / c.objects_count) if c.objects_count else None,
+                c.failures_count,
+            ]
             for c in bodies[:MAX_BODIES]
         ]
         caption = gettext("{count} more bodies in the file", count=len(bodies) - MAX_BODIES) if len(bodies) > MAX_BODIES else ""
@@ -74,7 +81,7 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
         yield styled_line(gettext("rows without a result: {count}", count=tally.failures), "yellow")
         reasons = sorted(tally.reasons.items(), key=lambda pair: -pair[1])
         # without a result no file is written: list all reasons here
-        max_reasons = MAX_REASONS if tally.answers else len(reasons)
+        max_reasons = MAX_REASONS if answers else len(reasons)
         for reason, count in reasons[:max_reasons]:
             yield styled_line(f"  {count} x {gettext(messages.get(reason, reason))}")
         if len(reasons) > max_reasons:

@@ -11,17 +11,25 @@ from seisblock.studies.batch.table import REASON, Row
 
 @dataclass
 class BodyCounts:
-    """Counts of one body: rows with a result, without, and with the event; objects, one per record, with a result and with the event.
+    """Counts of one body.
 
-    An object has the event if it has it in any row of its record.
+    Parameters
+    ----------
+    body : str
+    answers_count, failures_count : int
+        Rows with and without a result.
+    happened_count : int
+        Rows with the event of the solver: overturning, sliding, jump, uplift, or fall of a stone.
+    objects_count, objects_happened_count : int
+        Objects, one per record, with a result, and with the event under any component.
     """
 
     body: str
-    answers: int = 0
-    failures: int = 0
-    events: int = 0
-    objects: int = 0
-    object_events: int = 0
+    answers_count: int = 0
+    failures_count: int = 0
+    happened_count: int = 0
+    objects_count: int = 0
+    objects_happened_count: int = 0
 
 
 @dataclass
@@ -53,42 +61,26 @@ class Tally:
                 continue
             count = self.bodies.setdefault(body, BodyCounts(body))
             if reason:
-                count.failures += 1
+                count.failures_count += 1
                 continue
-            count.answers += 1
+            count.answers_count += 1
             occurred = self.solver.event_occurred(row)
-            count.events += occurred
+            count.happened_count += occurred
             objects[body] = objects.get(body, False) or occurred
         for body, occurred in objects.items():
-            self.bodies[body].objects += 1
-            self.bodies[body].object_events += occurred
+            self.bodies[body].objects_count += 1
+            self.bodies[body].objects_happened_count += occurred
         return rows
 
-    @property
-    def answers(self) -> int:
-        """Number of rows with a result."""
-        return sum(count.answers for count in self.bodies.values())
+    def total(self, name: str) -> int:
+        """Return the sum of a count, a field of :class:`BodyCounts`, over the bodies."""
+        return sum(getattr(count, name) for count in self.bodies.values())
 
     @property
     def failures(self) -> int:
         """Number of rows without a result."""
-        return self.unreadable + sum(count.failures for count in self.bodies.values())
-
-    @property
-    def event_count(self) -> int:
-        """Number of rows with the event."""
-        return sum(count.events for count in self.bodies.values())
-
-    @property
-    def objects(self) -> int:
-        """Number of objects, one per body and record, with a result."""
-        return sum(count.objects for count in self.bodies.values())
-
-    @property
-    def object_events(self) -> int:
-        """Number of objects with the event in any row."""
-        return sum(count.object_events for count in self.bodies.values())
+        return self.unreadable + self.total("failures_count")
 
     def sorted_counts(self) -> list[BodyCounts]:
         """Return the counts of the bodies, most events first."""
-        return sorted(self.bodies.values(), key=lambda count: -count.events / max(count.answers, 1))
+        return sorted(self.bodies.values(), key=lambda count: -count.happened_count / max(count.answers_count, 1))

@@ -6,6 +6,13 @@ from typing import Any
 
 from seisblock.studies.map.stations import StationReport
 
+STATION_KEYS = (
+    *("record", "station", "seed_id", "name", "latitude", "longitude", "epicentral_distance_km", "local_start"),
+    *("pga_m_s2", "pgv_m_s", "jma_intensity"),
+)
+RESULT_KEYS = ("azimuth_deg", "rate", "happened", "overturned", "probability", "max_slip_m", "max_uplift_m")
+"""Fields of a report, and of its result, that are keys."""
+
 
 def station_row(report: StationReport) -> dict[str, Any]:
     """Return the keys of a station with their values.
@@ -20,26 +27,9 @@ def station_row(report: StationReport) -> dict[str, Any]:
     >>> row["station"], row["latitude"], row["rate"]
     ('ABC', 35.0, None)
     """
-    result = report.effect
     return {
-        "record": report.record,
-        "station": report.station,
-        "seed_id": report.seed_id,
-        "name": report.name,
-        "latitude": report.latitude,
-        "longitude": report.longitude,
-        "epicentral_distance_km": report.epicentral_distance_km,
-        "local_start": report.local_start,
-        "pga_m_s2": report.pga_m_s2,
-        "pgv_m_s": report.pgv_m_s,
-        "jma_intensity": report.jma_intensity,
-        "azimuth_deg": result.azimuth_deg,
-        "rate": result.rate,
-        "happened": result.happened,
-        "overturned": result.overturned,
-        "probability": result.probability,
-        "max_slip_m": result.max_slip_m,
-        "max_uplift_m": result.max_uplift_m,
+        **{key: getattr(report, key) for key in STATION_KEYS},
+        **{key: getattr(report.effect, key) for key in RESULT_KEYS},
         "failure": report.failure,
         "doubts": "; ".join(report.doubts) or None,
         "history": "; ".join(report.history) or None,
