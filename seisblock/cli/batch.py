@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from seisblock.cli import shell_completion
+from seisblock.cli.bodies.options import bodies_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, excel_option, record_options
@@ -27,15 +27,7 @@ from seisblock.core.registry import solver_names
     ),
 )
 @record_options
-@option(
-    "--bodies",
-    multiple=True,
-    required=True,
-    metavar="FILE|NAME",
-    shell_complete=shell_completion.complete_bodies(),
-    section="Body",
-    help="Table of bodies (.csv: name, width, height in m, mu, ...), file that describes one body, or bundled body; may be repeated.",
-)
+@bodies_option("Table of bodies (.csv: name, width, height in m, mu, ...), file that describes one body, or bundled body; may be repeated.")
 @option("--solver", type=SuggestingChoice(solver_names()), default="respond", show_default=True, help="Model that computes the response.")
 @option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies for which none is given.")
 @option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: applied where the record has one]")

@@ -10,6 +10,7 @@ import click
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.bodies.kinds import KINDS, kind_to_toml
 from seisblock.cli import shell_completion
+from seisblock.cli.bodies.options import inset_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, argument, option
 from seisblock.cli.console import info, print_result
@@ -18,7 +19,7 @@ from seisblock.cli.options import check_callback, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import INSET, LENGTH, OutputFile
+from seisblock.cli.types import LENGTH, OutputFile
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core import checks
 from seisblock.core.errors import OutputError
@@ -64,12 +65,8 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     metavar="KG/M3",
     help="Density, kg/m^3; without effect on the motion.",
 )
-@option(
-    "--inset",
-    type=INSET,
-    metavar="SHARE|M",
-    section="Body",
-    help="Inset of worn edges from each side of the base: share of the smallest width (0.1, 10%), or m with a unit (1cm). [default: 0]",
+@inset_option(
+    "Inset of worn edges from each side of the base: share of the smallest width (0.1, 10%), or m with a unit (1cm). [default: 0]"
 )
 @option(
     "--tolerance",

@@ -7,8 +7,7 @@ from typing import Any
 
 import click
 
-from seisblock.cli import shell_completion
-from seisblock.cli.bodies.options import block_options
+from seisblock.cli.bodies.options import block_options, bodies_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, output_options, suite_record_options
@@ -54,14 +53,10 @@ METHODS = ("stripes", "ida", "cloud")
     help="Format: csv, m/s^2 with all digits, or knet, three files per record in K-NET ASCII (counts of 1e-4 gal).",
 )
 @block_options
-@option(
-    "--bodies",
-    multiple=True,
-    metavar="FILE|NAME",
-    shell_complete=shell_completion.complete_bodies(),
-    section="Body",
-    help="Bodies instead of one body: table (.csv: name, width, height in m, mu, ...), file that describes one body, or bundled body; "
+@bodies_option(
+    "Bodies instead of one body: table (.csv: name, width, height in m, mu, ...), file that describes one body, or bundled body; "
     "may be repeated.",
+    required=False,
 )
 @option(
     "--mu",

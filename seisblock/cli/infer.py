@@ -12,8 +12,7 @@ import click
 from seisblock.bodies.body_name import body_name
 from seisblock.bodies.edge_wear import DEFAULT_WEAR
 from seisblock.bodies.kinds import KINDS
-from seisblock.cli import shell_completion
-from seisblock.cli.bodies.options import side_option, two_layer_option
+from seisblock.cli.bodies.options import block_option, cemetery_option, inset_option, side_option, stones_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -21,7 +20,7 @@ from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, displaced_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count, OutputFile
+from seisblock.cli.types import FLOATS, LENGTH, MU, Count
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_RUNS
@@ -53,22 +52,12 @@ TWIST_OPTIONS = (
     ),
 )
 @displaced_record_options
-@option(
-    "--cemetery",
-    multiple=True,
-    metavar="FILE|NAME",
-    shell_complete=shell_completion.complete_cemeteries,
-    section="Body",
-    help="Table of gravestones (.csv, .xlsx); column fallen: 1, yes, 転倒 (overturned) or 0, no, 残存 (standing). Several surveys of one "
+@cemetery_option(
+    "Table of gravestones (.csv, .xlsx); column fallen: 1, yes, 転倒 (overturned) or 0, no, 残存 (standing). Several surveys of one "
     "earthquake: repeat the option.",
+    multiple=True,
 )
-@option(
-    "--stones",
-    type=OutputFile("CSV"),
-    metavar="FILE.csv",
-    section="Output",
-    help="Write the result of each stone: threshold, probability, computed and observed overturning (CSV that Excel opens).",
-)
+@stones_option
 @option("--rate", metavar="K/N", section="Body", help="Count: K of N stones overturned; proportions of the stones as in --cemetery.")
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="Displacement of an object that slid, m or with a unit; needs --mu.")
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="Displacement of a two-layer block that jumped, m or with a unit.")
@@ -76,7 +65,7 @@ TWIST_OPTIONS = (
 @option(
     "--displacement", type=LENGTH, metavar="M", section="Body", help="--twist: residual displacement of the same object, m or with a unit."
 )
-@two_layer_option(f"--jumped, --twist: bundled body or TOML file. [default: --jumped: {DEFAULT_BLOCK}]")
+@block_option(f"--jumped, --twist: bundled body or TOML file. [default: --jumped: {DEFAULT_BLOCK}]", "two-layer")
 @option("--width", type=LENGTH, section="Body", help="--twist: width along the component, m or with a unit.")
 @option("--height", type=LENGTH, section="Body", help="--twist: height, m or with a unit.")
 @option("--depth", type=LENGTH, section="Body", help="--twist: depth, m or with a unit. [default: as the width]")
@@ -119,11 +108,9 @@ TWIST_OPTIONS = (
     show_default=True,
     help="Stones: fitted criteria (9), (10) for whole gravestones, or one rigid block under a half sine.",
 )
-@option(
-    "--inset",
-    type=INSET,
-    metavar="SHARE|M",
-    help="Stones, rigid, --twist: inset of worn edges per side, share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.05]",
+@inset_option(
+    "Stones, rigid, --twist: inset of worn edges per side, share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.05]",
+    section="Solver",
 )
 @option("--confidence", type=float, default=0.9, show_default=True, help="Stones, --twist: confidence level of the intervals, 0 to 1.")
 @option(

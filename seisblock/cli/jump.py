@@ -11,7 +11,7 @@ import click
 
 from seisblock.bodies.body_name import body_name
 from seisblock.bodies.two_layer import Contact
-from seisblock.cli.bodies.options import two_layer_option
+from seisblock.cli.bodies.options import block_option
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -38,7 +38,7 @@ DEFAULT_BLOCK = "chozusha"
     examples=("seisblock jump", "seisblock jump record.csv --component EW --drop 0.3 --tenon 2cm --plot jump.png"),
 )
 @record_options
-@two_layer_option(f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
+@block_option(f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]", "two-layer")
 @option(
     "--side",
     type=SIDES,

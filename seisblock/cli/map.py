@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from seisblock.cli import shell_completion
 from seisblock.cli.bodies.free_standing import choose_free_standing, free_standing_options
+from seisblock.cli.bodies.options import cemetery_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info, note_default_record, warning
@@ -49,13 +49,7 @@ DEFAULT_RUNS = 50
     ),
 )
 @real_record_options
-@option(
-    "--cemetery",
-    metavar="FILE|NAME",
-    shell_complete=shell_completion.complete_cemeteries,
-    section="Body",
-    help="CSV of gravestones at every station, instead of a body; gives the overturning rate. Bundled: aoyama.csv.",
-)
+@cemetery_option("CSV of gravestones at every station, instead of a body; gives the overturning rate. Bundled: aoyama.csv.")
 @option(
     "--survey",
     type=click.Path(path_type=Path),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from seisblock.cli.bodies.options import side_option, two_layer_option
+from seisblock.cli.bodies.options import block_option, side_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -58,7 +58,7 @@ def _check_corner(ctx: click.Context, param: click.Parameter, value: float) -> f
 )
 @option("--width", type=LENGTH, section="Body", help="Width B of a block, m or with a unit (24cm, 8sun); threshold g B/H.")
 @option("--height", type=LENGTH, section="Body", help="Height H of the block, m or with a unit.")
-@two_layer_option("Bundled two-layer block, or TOML file; its rocking threshold is used.")
+@block_option("Bundled two-layer block, or TOML file; its rocking threshold is used.", "two-layer")
 @side_option("Side of --block in plan along the motion.")
 @option(
     "--direction",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from seisblock.cli import shell_completion
-from seisblock.cli.command import add_options, argument, option
+from seisblock.cli.command import Decorator, add_options, argument, option
 from seisblock.cli.output import DPI, SLOW, OutputOptions, check_output
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import JMA, SIZE, STOREY, WINDOW, FormatType
@@ -287,27 +287,17 @@ def preparation_options(function: Function) -> Function:
     return _collect_options(function, _RECORD_OPTIONS, Source, "source", record=())
 
 
-def peak_options(function: Function) -> Function:
-    """Add the peaks of a motion that stand in place of a record."""
-    return add_options(
-        option(
-            "--pga",
-            type=float,
-            callback=_positive,
-            metavar="GAL",
-            section="Record",
-            help="Instead of RECORD, with --pgv or --frequency: PGA, gal.",
-        ),
-        option("--pgv", type=float, callback=_positive, metavar="KINE", section="Record", help="Instead of RECORD, with --pga: PGV, kine."),
-        option(
-            "--frequency",
-            type=float,
-            callback=_positive,
-            metavar="HZ",
-            section="Record",
-            help="Instead of RECORD, with --pga: equivalent frequency PGA/(2 pi PGV), Hz.",
-        ),
-    )(function)
+def peak_option(flag: str, metavar: str, text: str) -> Decorator:
+    """Return the option of a positive peak, or frequency, of the motion, with the given help text."""
+    return option(flag, type=float, callback=_positive, metavar=metavar, section="Record", help=text)
+
+
+peak_options = add_options(
+    peak_option("--pga", "GAL", "Instead of RECORD, with --pgv or --frequency: PGA, gal."),
+    peak_option("--pgv", "KINE", "Instead of RECORD, with --pga: PGV, kine."),
+    peak_option("--frequency", "HZ", "Instead of RECORD, with --pga: equivalent frequency PGA/(2 pi PGV), Hz."),
+)
+"""Options of the peaks of a motion that stand in place of a record."""
 
 
 def output_options(

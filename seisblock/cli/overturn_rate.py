@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from seisblock.bodies.edge_wear import DEFAULT_WEAR, MAX_SHARE, EdgeWear
-from seisblock.cli import shell_completion
+from seisblock.cli.bodies.options import cemetery_option, inset_option, stones_option
 from seisblock.cli.build import gravity_option, solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -19,7 +19,7 @@ from seisblock.cli.options import Source, check_callback, curve_record_options, 
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, INSET, LENGTH, Count, OutputFile
+from seisblock.cli.types import FLOATS, LENGTH, Count
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.i18n import N_, gettext, lazy_gettext
@@ -61,14 +61,10 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     ),
 )
 @curve_record_options
-@option(
-    "--cemetery",
-    required=True,
-    metavar="FILE|NAME",
-    shell_complete=shell_completion.complete_cemeteries,
-    section="Body",
-    help="Table of gravestones (.csv, .xlsx): height_over_width, or height and width; optional name, reinforced, fallen, azimuth_deg, "
+@cemetery_option(
+    "Table of gravestones (.csv, .xlsx): height_over_width, or height and width; optional name, reinforced, fallen, azimuth_deg, "
     "count, inset. Bundled: aoyama.csv.",
+    required=True,
 )
 @option("--reinforced", is_flag=True, section="Body", help="Assess all stones as reinforced (dowels).")
 @option("--both", is_flag=True, section="Body", help="Compare with all stones reinforced: number of stones saved.")
@@ -109,12 +105,10 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     "under RECORD or a 20 s sine. [default: simulate with RECORD; furukawa without, for reinforced stones and with --frequency, "
     "--equivalent or --fit]",
 )
-@option(
-    "--inset",
-    type=INSET,
-    metavar="SHARE|M",
-    help="rigid, simulate: inset of worn edges from each side, share of the width (0.1, 10%), or m with a unit (1cm). [default: "
+@inset_option(
+    "rigid, simulate: inset of worn edges from each side, share of the width (0.1, 10%), or m with a unit (1cm). [default: "
     "0 to 0.1, median 0.05]",
+    section="Solver",
 )
 @option(
     "--fit",
@@ -136,13 +130,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     callback=check_callback(partial(checks.in_interval, interval="(0, 1)")),
     help="Confidence level of the interval of the rate, 0 to 1.",
 )
-@option(
-    "--stones",
-    type=OutputFile("CSV"),
-    metavar="FILE.csv",
-    section="Output",
-    help="Write the result of each stone: threshold, probability, computed and observed overturning (CSV that Excel opens).",
-)
+@stones_option
 @solver_options(RockOptions, "vertical")
 @gravity_option
 @output_options(histories=False, film=False)

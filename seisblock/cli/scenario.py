@@ -7,15 +7,14 @@ from typing import Any
 
 import click
 
-from seisblock.cli import shell_completion
+from seisblock.cli.bodies.options import bodies_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, Decorator, add_options, option
 from seisblock.cli.console import info
-from seisblock.cli.options import Source, check_callback, output_options, scenario_record_options
+from seisblock.cli.options import Source, output_options, peak_option, scenario_record_options
 from seisblock.cli.output import STDOUT, OutputOptions
 from seisblock.cli.scenario_records import load_scenario
 from seisblock.cli.types import JMA, MU, Count, OutputFile
-from seisblock.core import checks
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_VALUES
 
@@ -26,30 +25,9 @@ def scenario_options() -> Decorator:
         option(
             "--jma", type=JMA, metavar="5-|5+|6-|6+|7|NUMBER", section="Record", help="JMA intensity; 6+ is 6.25, the middle of 6 upper."
         ),
-        option(
-            "--pga",
-            type=float,
-            callback=check_callback(checks.positive),
-            metavar="GAL",
-            section="Record",
-            help="PGA of the larger horizontal component, gal.",
-        ),
-        option(
-            "--pgv",
-            type=float,
-            callback=check_callback(checks.positive),
-            metavar="KINE",
-            section="Record",
-            help="PGV of the larger horizontal component, kine; alone or with --pga.",
-        ),
-        option(
-            "--frequency",
-            type=float,
-            callback=check_callback(checks.positive),
-            metavar="HZ",
-            section="Record",
-            help="Equivalent frequency PGA/(2 pi PGV), Hz, with --pga instead of --pgv.",
-        ),
+        peak_option("--pga", "GAL", "PGA of the larger horizontal component, gal."),
+        peak_option("--pgv", "KINE", "PGV of the larger horizontal component, kine; alone or with --pga."),
+        peak_option("--frequency", "HZ", "Equivalent frequency PGA/(2 pi PGV), Hz, with --pga instead of --pgv."),
         option(
             "--sa", metavar="T=GAL", section="Record", help="Spectral acceleration (5 %) of the larger horizontal at period T, s: 0.5=600."
         ),
@@ -74,15 +52,9 @@ def scenario_options() -> Decorator:
 )
 @scenario_record_options
 @scenario_options()
-@option(
-    "--bodies",
-    multiple=True,
-    required=True,
-    metavar="FILE|NAME",
-    shell_complete=shell_completion.complete_bodies(),
-    section="Body",
-    help="Table of objects (.csv, .xlsx: name, width, depth, height, mass, mu, kind; headings also in Japanese), file of one body, or "
-    "bundled body; may be repeated. The column kind may hold a bundled name such as bookcase.",
+@bodies_option(
+    "Table of objects (.csv, .xlsx: name, width, depth, height, mass, mu, kind; headings also in Japanese), file of one body, or "
+    "bundled body; may be repeated. The column kind may hold a bundled name such as bookcase."
 )
 @option(
     "--mu",

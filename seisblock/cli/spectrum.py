@@ -11,7 +11,7 @@ import click
 
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.cli.azimuth_sweep import is_azimuth_sweep
-from seisblock.cli.bodies.options import azimuth_option
+from seisblock.cli.bodies.options import azimuth_option, inset_option
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.option_checks import given_flags
@@ -19,7 +19,7 @@ from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, INSET, LENGTHS, MUS, Count
+from seisblock.cli.types import FLOATS, LENGTHS, MUS, Count
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.limits import MAX_CELLS
@@ -98,13 +98,7 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
     metavar="LIST|RANGE",
     help="Slenderness alpha = atan(B/H), rad, instead of --height-over-width.",
 )
-@option(
-    "--inset",
-    type=INSET,
-    metavar="SHARE|M",
-    section="Body",
-    help="Inset of worn edges from each side of the blocks: share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]",
-)
+@inset_option("Inset of worn edges from each side of the blocks: share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]")
 @option(
     "--steps",
     type=Count(N_("cells"), MAX_CELLS, minimum=2, power=2),

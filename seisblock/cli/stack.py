@@ -9,6 +9,7 @@ import click
 from click.core import ParameterSource
 
 from seisblock.cli import shell_completion
+from seisblock.cli.bodies.options import inset_option
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -17,7 +18,7 @@ from seisblock.cli.option_checks import given_flags
 from seisblock.cli.options import Source, criterion_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.sampling_options import pop_spreads, version_options
-from seisblock.cli.types import INSET, MU, ContactType, OutputFile
+from seisblock.cli.types import MU, ContactType, OutputFile
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.models.stack.options import EDGES, GRID, RIGID, SPRINGS, StackOptions
@@ -79,13 +80,9 @@ MAX_GRID = 29
     section="Body",
     help="Stone fixed to the ground; may be repeated.",
 )
-@option(
-    "--inset",
-    type=INSET,
-    metavar="SHARE|M",
-    section="Body",
-    help="Inset of worn edges from each side of the base of every stone: share of the width (0.1, 10%), or m with a unit (1cm); "
-    "--contact edges. [default: value of the file, or 0]",
+@inset_option(
+    "Inset of worn edges from each side of the base of every stone: share of the width (0.1, 10%), or m with a unit (1cm); "
+    "--contact edges. [default: value of the file, or 0]"
 )
 @option("--mu", type=MU, help="Static friction coefficient of every joint. [default: value of the file; wagata 0.438]")
 @solver_options(StackOptions, "mu_kinetic", "restitution")

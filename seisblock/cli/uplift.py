@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from seisblock.cli import shell_completion
+from seisblock.cli.bodies.options import block_option
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -57,14 +57,10 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
     ),
 )
 @harmonic_record_options
-@option(
-    "--block",
-    "--body",
-    "body",
-    metavar="NAME|FILE",
-    shell_complete=shell_completion.complete_bodies("springs"),
-    section="Body",
-    help="Bundled body on springs or TOML file; sizes and other options replace its values. [default: machine, without sizes]",
+@block_option(
+    "Bundled body on springs or TOML file; sizes and other options replace its values. [default: machine, without sizes]",
+    "springs",
+    name="body",
 )
 @option("--width", type=LENGTH, section="Body", help="Side a of the base along the motion, m or with a unit.")
 @option("--depth", type=LENGTH, section="Body", help="Side b of the base across the motion, m or with a unit. [default: --width]")

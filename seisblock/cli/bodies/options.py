@@ -2,11 +2,46 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from seisblock.bodies.kinds import KINDS
 from seisblock.cli import shell_completion
 from seisblock.cli.command import Decorator, add_options, option
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import INSET, LENGTH, LENGTHS, MASS
+from seisblock.cli.types import INSET, LENGTH, LENGTHS, MASS, OutputFile
+
+
+def inset_option(text: str, *, section: str = "Body") -> Decorator:
+    """Return ``--inset`` with the given help text."""
+    return option("--inset", type=INSET, metavar="SHARE|M", section=section, help=text)
+
+
+def bodies_option(text: str, *, required: bool = True) -> Decorator:
+    """Return ``--bodies`` with the given help text: tables, files and names of bodies."""
+    complete = shell_completion.complete_bodies()
+    return option("--bodies", multiple=True, required=required, metavar="FILE|NAME", shell_complete=complete, section="Body", help=text)
+
+
+def cemetery_option(text: str, **attributes: Any) -> Decorator:
+    """Return ``--cemetery`` with the given help text."""
+    complete = shell_completion.complete_cemeteries
+    return option("--cemetery", metavar="FILE|NAME", shell_complete=complete, section="Body", help=text, **attributes)
+
+
+def block_option(text: str, *kinds: str, name: str = "block") -> Decorator:
+    """Return ``--block`` with the given help text: a file or a bundled body of the given kinds (default: all)."""
+    complete = shell_completion.complete_bodies(*kinds)
+    return option("--block", "--body", name, metavar="NAME|FILE", shell_complete=complete, section="Body", help=text)
+
+
+stones_option = option(
+    "--stones",
+    type=OutputFile("CSV"),
+    metavar="FILE.csv",
+    section="Output",
+    help="Write the result of each stone: threshold, probability, computed and observed overturning (CSV that Excel opens).",
+)
+"""Option ``--stones`` of surveys, the file of their stones."""
 
 _SIZES = (
     option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit (24cm, 8sun)."),
@@ -46,13 +81,9 @@ _OPTIONAL_SIZES = (
         section="Body",
         help="Moment of inertia about the centre of gravity, kg m^2. [default: m (B^2 + H^2)/12]",
     ),
-    option(
-        "--inset",
-        type=INSET,
-        metavar="SHARE|M",
-        section="Body",
-        help="Inset of worn edges from each side: share of the width (0.1, 10%), or m with a unit (1cm). [default: value of the body, "
-        "0.05 for gravestones, else 0]",
+    inset_option(
+        "Inset of worn edges from each side: share of the width (0.1, 10%), or m with a unit (1cm). [default: value of the body, "
+        "0.05 for gravestones, else 0]"
     ),
     option(
         "--kind",
@@ -60,15 +91,7 @@ _OPTIONAL_SIZES = (
         section="Body",
         help="Kind of a body given by its sizes; gravestones have edges worn by 0 to 0.1 of the width, others sharp ones. [default: block]",
     ),
-    option(
-        "--block",
-        "--body",
-        "block",
-        metavar="NAME|FILE",
-        shell_complete=shell_completion.complete_bodies(),
-        section="Body",
-        help="Bundled body (gravestone) or TOML file, instead of sizes.",
-    ),
+    block_option("Bundled body (gravestone) or TOML file, instead of sizes."),
     option(
         "--side",
         type=SuggestingChoice(["short", "long"]),
@@ -76,19 +99,6 @@ _OPTIONAL_SIZES = (
         help="Side of a two-layer --block along the motion. [default: short]",
     ),
 )
-
-
-def two_layer_option(text: str) -> Decorator:
-    """Return ``--block`` for a two-layer block, with the given help text."""
-    return option(
-        "--block",
-        "--body",
-        "block",
-        metavar="NAME|FILE",
-        shell_complete=shell_completion.complete_bodies("two-layer"),
-        section="Body",
-        help=text,
-    )
 
 
 def side_option(text: str) -> Decorator:
