@@ -50,7 +50,6 @@ def write_results(
     csv: Callable[[], CsvTable] | None = None,
     bom: bool = False,
     figure: Callable[[], Figure] | None = None,
-    animation: Callable[[Path, AnimationOptions], None] | None = None,
     probability: float | None = None,
 ) -> None:
     """Print the results as tables or JSON and write the requested files.
@@ -70,21 +69,18 @@ def write_results(
         Whether that table begins with a byte order mark without ``--excel``, too.
     figure : callable
         Returns the matplotlib Figure of ``--plot``, default that of the responses.
-    animation : callable
-        Writes the file of ``--animate``, default the animation of the responses.
     probability : float or None
         Overturning probability of the first response, for the title of the animation.
     """
     set_task("preparing the results")
+    solver = get_solver(responses[0].model) if responses else None
     if responses:
         figure = figure or (lambda: _response_figure(responses, gal=output.gal))
-        if animation is None and get_solver(responses[0].model).animate is not None:
-            animation = partial(_animate, responses[0])
     for message in document.warnings:
         warning(message)
     if output.plot is not None and figure is None:
         raise OutputError("{command} has no figure here: omit --plot", command=document.command)
-    if output.animate is not None and animation is None:
+    if output.animate is not None and (solver is None or solver.animate is None):
         raise OutputError("{command} has no animation here: omit --animate", command=document.command)
     check_output(output)
     if STDOUT in (output.csv, output.plot):
@@ -102,13 +98,13 @@ def write_results(
         with progress("writing {file}", file=str(output.csv)):
             write_table(output.csv, *table, bom=bom or output.excel)
         info("wrote {file}", file=str(output.csv))
-    if output.animate is not None and animation is not None:
-        phases = responses[0].phases if responses else ()
+    if output.animate is not None and solver is not None:
+        phases = responses[0].phases
         # a model without phases tells by its outcome
-        if (phases and all(phase.name in AT_REST for phase in phases)) or (responses and not getattr(responses[0].outcome, "moved", True)):
+        if (phases and all(phase.name in AT_REST for phase in phases)) or not getattr(responses[0].outcome, "moved", True):
             warning("the object remains at rest: no animation written")
         else:
-            _write_animation(animation, output, probability)
+            _write_animation(partial(solver.presenter("animate"), responses[0]), output, probability)
             info("wrote {path}", path=output.animate)
     if output.plot is not None and figure is not None:
         _write_figure(figure, output.plot, output)
@@ -126,10 +122,6 @@ def _response_figure(responses: Sequence[Response[Any]], *, gal: bool) -> Figure
     from seisblock.output.figures.solver import response_figure
 
     return response_figure(responses, gal=gal)
-
-
-def _animate(response: Response[Any], path: Path, options: AnimationOptions) -> None:
-    get_solver(response.model).presenter("animate")(response, path, options)
 
 
 def _to_stdout(write: Callable[[Path], None]) -> None:

@@ -148,6 +148,12 @@ def unique_criteria(rows: Sequence[CriterionResult], frequency: str = PREFERRED_
     return tuple(by_criterion.values())
 
 
+def count_agreeing(rows: Sequence[CriterionResult], overturned: bool) -> tuple[int, int]:
+    """Return how many criteria, each counted once, predict the outcome, and their total."""
+    unique = unique_criteria(rows)
+    return sum(row.overturns == overturned for row in unique), len(unique)
+
+
 def _make_result(
     criterion: str, reference: str, unit: str, threshold: float, demand: float, frequency: str | None = None, hz: float | None = None
 ) -> CriterionResult:

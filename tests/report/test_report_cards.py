@@ -7,7 +7,6 @@ import pytest
 
 from seisblock.report.html.report_text import card_text, rank, scatter_text, share_caveat
 from seisblock.studies.report.responses import ModelResponse
-from seisblock.studies.respond.best_estimate import BestEstimate
 from seisblock.studies.respond.probability import ParameterVariation, Probability
 from tests.report.long_record import response
 
@@ -22,7 +21,7 @@ def effect(name, fell_at, share):
     outcome = replace(solution.outcome, outcome="moves" if fell_at is None else "overturns", sensitive=False, **fell)
     shaking = replace(solution, outcome=outcome, motion=replace(solution.motion, name=name))
     expected = Probability(200, share, share, (max(share - 0.1, 0.0), min(share + 0.1, 1.0)), 0.01, ENDS, ParameterVariation(), 1)
-    return ModelResponse(shaking, None, None, BestEstimate(shaking, expected, True))
+    return ModelResponse(shaking, None, None, expected)
 
 
 def test_worst_direction_has_highest_probability():
@@ -69,7 +68,6 @@ def test_shares_of_zero_and_one_carry_interval(share, message):
     assert "3 % overturned where no computed sample did" in scatter_text([result])
 
 
-def test_card_without_samples_has_no_shares():
-    """Neither a caveat nor what was varied."""
-    result = replace(effect("NS", 40.0, 0.0), governing=SimpleNamespace(probability=None))
-    assert not list(share_caveat(result)) and scatter_text([result]) == ""
+def test_scatter_text_of_idealised_model_is_empty():
+    """It has no samples."""
+    assert scatter_text([replace(effect("NS", 40.0, 0.0), probability=None)]) == ""

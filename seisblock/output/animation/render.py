@@ -81,20 +81,18 @@ def render(figure: Figure, moving: Sequence[Any], draw: Callable[[int], None], c
         yield Image.frombuffer("RGBA", canvas.get_width_height(), bytes(canvas.buffer_rgba())).convert("RGB")
 
 
-def frame_times(
-    first: float, last: float, fps: int = FRAMES_PER_SECOND, *, slow: float = 1.0, max_frames: int = MAX_FRAMES
-) -> tuple[list[float], float]:
+def frame_times(first: float, last: float, *, slow: float = 1.0, max_frames: int = MAX_FRAMES) -> tuple[list[float], float]:
     """Return the times of the frames of an interval, s, and the playback speed over real time."""
     speed = 1.0 / slow
-    count = max(round((last - first) * fps / speed) + 1, 2)
+    count = max(round((last - first) * FRAMES_PER_SECOND / speed) + 1, 2)
     # doubling keeps a simple ratio to real time
     while count > max_frames:
         speed *= 2
-        count = max(round((last - first) * fps / speed) + 1, 2)
+        count = max(round((last - first) * FRAMES_PER_SECOND / speed) + 1, 2)
     return [first + (last - first) * i / (count - 1) for i in range(count)], speed
 
 
-def write_frames(frames: Iterable[Image.Image], path: Path | str, *, fps: int = FRAMES_PER_SECOND) -> None:
+def write_frames(frames: Iterable[Image.Image], path: Path | str) -> None:
     """Write frames as an animation atomically, in the format of the suffix.
 
     Parameters
@@ -102,8 +100,6 @@ def write_frames(frames: Iterable[Image.Image], path: Path | str, *, fps: int = 
     frames : iterable of RGB images of one size
     path : path
         ``.gif`` or ``.mp4`` (requires ffmpeg or the package imageio-ffmpeg).
-    fps : int
-        Frames per second.
 
     Raises
     ------
@@ -119,10 +115,10 @@ def write_frames(frames: Iterable[Image.Image], path: Path | str, *, fps: int = 
             "cannot save the animation as {target}: the name must end in {suffixes}", target=target, suffixes=join_alternatives(writers)
         )
     with atomic_write(target) as temporary:
-        writer(frames, temporary, fps)
+        writer(frames, temporary)
 
 
-def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
+def _write_gif(frames: Iterable[Image.Image], path: Path) -> None:
     """Write a looping GIF with one palette, from the first, middle and last frame."""
     pictures = list(frames)
     width, height = pictures[0].size
@@ -132,7 +128,7 @@ def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
     # one palette for all frames, which the transparent deltas require
     palette = samples.quantize(TRANSPARENT, method=Image.Quantize.MEDIANCUT)
     first, *later = _frame_deltas([picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures])
-    timing = {"duration": round(100 / fps) * 10, "loop": 0}
+    timing = {"duration": round(100 / FRAMES_PER_SECOND) * 10, "loop": 0}
     first.save(path, format="GIF", save_all=True, append_images=later, optimize=False, transparency=TRANSPARENT, **timing)
 
 
@@ -147,37 +143,16 @@ def _frame_deltas(pictures: Sequence[Image.Image]) -> Iterator[Image.Image]:
         previous = pixels
 
 
-def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
+def _write_mp4(frames: Iterable[Image.Image], path: Path) -> None:
     """Encode frames with ffmpeg through a pipe."""
     program = find_ffmpeg() or "ffmpeg"
     pictures = iter(frames)
     first = next(pictures)
     # yuv420p requires even dimensions
     width, height = (size - size % 2 for size in first.size)
-    command = [
-        program,
-        "-y",
-        "-loglevel",
-        "error",
-        "-f",
-        "rawvideo",
-        "-pix_fmt",
-        "rgb24",
-        "-s",
-        f"{width}x{height}",
-        "-r",
-        str(fps),
-        "-i",
-        "-",
-        "-an",
-        "-c:v",
-        "libx264",
-        "-pix_fmt",
-        "yuv420p",
-        "-f",
-        "mp4",
-        str(path),
-    ]
+    source = f"-f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {FRAMES_PER_SECOND} -i -"
+    target = "-an -c:v libx264 -pix_fmt yuv420p -f mp4"
+    command = [program, *f"-y -loglevel error {source} {target}".split(), str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdin is not None and process.stderr is not None
         try:

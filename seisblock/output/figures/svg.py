@@ -24,6 +24,9 @@ MAX_SVG_BYTES = 600_000
 
 PICTURE_DPI = 170
 
+PICTURE_WIDTH = 6.0
+"""Largest width of an embedded figure, inch."""
+
 OVER_KEY = 17.0
 """Offset of the title of a panel above a legend of one row, points."""
 
@@ -42,20 +45,19 @@ class Picture(NamedTuple):
     caption: str
 
 
-def embed_figure(figure: Figure, caption: str, *, width: float = 6.0) -> Picture:
+def embed_figure(figure: Figure, caption: str) -> Picture:
     """Return a figure as data URI, reproducible byte by byte.
 
     Parameters
     ----------
     figure : Figure
-        Narrowed to `width`, so that text stays readable on small screens.
+        Narrowed to :data:`PICTURE_WIDTH`, so that text stays readable on small screens.
     caption : str
         Plain text.
-    width : float, inch
     """
     figure_width, height = figure.get_size_inches()
-    if figure_width > width:
-        figure.set_size_inches(width, height * (0.75 + 0.25 * width / figure_width))
+    if figure_width > PICTURE_WIDTH:
+        figure.set_size_inches(PICTURE_WIDTH, height * (0.75 + 0.25 * PICTURE_WIDTH / figure_width))
     for axis in figure.axes:
         _lift_title(axis)
         for line in axis.lines:

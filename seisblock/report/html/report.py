@@ -8,7 +8,7 @@ from typing import Any
 
 from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import N_, gettext, join_list, join_sentences
-from seisblock.criteria.compare import unique_criteria
+from seisblock.criteria.compare import count_agreeing
 from seisblock.measures.shaking import response_shaking
 from seisblock.output.describe_wear import describe_edges
 from seisblock.output.figures.fonts import build_localized
@@ -74,7 +74,7 @@ def _effects_by_model(body: BodyResponses) -> list[list[ModelResponse]]:
 
 def _tile(body: BodyResponses) -> dict[str, str]:
     """Return the card of a body: probability as an object, then the directions, the worst first."""
-    effects = [effect for effect in body.effects if effect.governing is not None]
+    effects = [effect for effect in body.effects if effect.probability is not None]
     return {
         "colour": share_colour(body.assessment.overturning_probability),
         "head": gettext("{text}.", text=body_headline(body)),
@@ -202,10 +202,9 @@ def _criteria(data: ReportData, body: BodyResponses, effects: Sequence[ModelResp
             )
         )
     for card in cards:
-        rows = unique_criteria(card.rows)
-        right = sum(row.overturns == card.outcome.overturned for row in rows)
+        right, count = count_agreeing(card.rows, card.outcome.overturned)
         text = N_("{name}: {right} of {all} criteria agree with the simulation")
-        sentences.append(gettext(text, name=card.component, right=right, all=len(rows)))
+        sentences.append(gettext(text, name=card.component, right=right, all=count))
     caption = gettext("Demand / threshold; a criterion predicts overturning above 1")
     return {"sentences": sentences, "picture": embed_figure(build_localized(lambda: figure(cards)), caption)}
 

@@ -36,8 +36,7 @@ def rank(effect: ModelResponse) -> tuple[float, ...]:
 
 def _overturned_share(effect: ModelResponse) -> float:
     """Return the overturning probability, 0 without samples."""
-    run = effect.governing
-    return 0.0 if run is None or run.probability is None else run.probability.overturned
+    return 0.0 if effect.probability is None else effect.probability.overturned
 
 
 def severity(effect: ModelResponse) -> float:
@@ -52,7 +51,7 @@ def verdict(effect: ModelResponse) -> str:
 
 def sentences(effect: ModelResponse) -> Iterator[str]:
     """Yield sentences on the response, its margin and its sensitivity."""
-    if effect.governing is not None:
+    if effect.probability is not None:
         yield from governing_text(effect)
         return
     first, *remaining = section(effect).sentences(effect.response)
@@ -66,16 +65,13 @@ def sentences(effect: ModelResponse) -> Iterator[str]:
 
 def governing_text(effect: ModelResponse) -> Iterator[str]:
     """Yield sentences on the full response: assessment, single run, probability, and an assumed friction."""
-    run = effect.governing
-    assert run is not None
+    assert effect.probability is not None
     if effect.assessment is not None:
         yield gettext("{text}.", text=headline(effect.assessment.assessment))
     yield respond_verdict(effect.response)
-    if run.probability is not None:
-        yield capitalize(probability_sentence(run.probability))
-    options = effect.response.options
-    if not run.friction_known:
-        yield gettext("Friction coefficient assumed: {mu:.2f} (none given; almost no sliding).", mu=options.mu)
+    yield capitalize(probability_sentence(effect.probability))
+    if not effect.friction_known:
+        yield gettext("Friction coefficient assumed: {mu:.2f} (none given; almost no sliding).", mu=effect.response.options.mu)
 
 
 def card_text(effects: Sequence[ModelResponse]) -> list[str]:
@@ -91,8 +87,6 @@ def card_text(effects: Sequence[ModelResponse]) -> list[str]:
 
 def share_caveat(effect: ModelResponse) -> Iterator[str]:
     """Yield the observed error rate of predictions with no or all samples overturned."""
-    if effect.governing is None or effect.governing.probability is None:
-        return
     if _overturned_share(effect) == 0.0:
         yield gettext("In shaking-table runs of two granite rocks, the rock overturned in 3 % of those for which no computed sample did.")
     elif _overturned_share(effect) == 1.0:
@@ -104,8 +98,8 @@ def share_caveat(effect: ModelResponse) -> Iterator[str]:
 def scatter_text(effects: Sequence[ModelResponse]) -> str:
     """Return the varied parameters of the samples as a sentence, empty without samples."""
     for effect in effects:
-        if effect.governing is not None and effect.governing.probability is not None:
-            return variation_text(effect.governing.probability, effect.response.body)
+        if effect.probability is not None:
+            return variation_text(effect.probability, effect.response.body)
     return ""
 
 

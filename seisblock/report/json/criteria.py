@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from seisblock.criteria.compare import CriterionResult, unique_criteria
+from seisblock.criteria.compare import CriterionResult, count_agreeing
 from seisblock.measures.frequency import EquivalentFrequency
 from seisblock.measures.shaking import BodyShaking
 from seisblock.models.rock.options import RockOptions
@@ -70,14 +70,9 @@ class RespondEntry(Struct, frozen=True, kw_only=True):
 def _respond_entry(card: CriteriaComparison) -> RespondEntry | None:
     if card.governing is None:
         return None
-    outcome, rows = card.governing.response.outcome, unique_criteria(card.rows)
-    return fill(
-        RespondEntry,
-        outcome,
-        card.governing,
-        card.governing.response.options,
-        criteria_agree=2 * sum(row.overturns == outcome.overturned for row in rows) > len(rows),
-    )
+    response = card.governing.response
+    right, count = count_agreeing(card.rows, response.outcome.overturned)
+    return fill(RespondEntry, response.outcome, card.governing, response.options, criteria_agree=2 * right > count)
 
 
 class CriteriaResult(Result, frozen=True, kw_only=True):

@@ -107,7 +107,7 @@ def _body_entries(body: BodyResponses) -> Iterator[ReportResult]:
     for name in dict.fromkeys(effect.response.motion.name for effect in body.effects):
         effects = [effect for effect in body.effects if effect.response.motion.name == name]
         full = next(effect for effect in effects if effect.assessment is not None)
-        assert full.governing is not None and full.assessment is not None
+        assert full.assessment is not None
         options = full.response.options
         yield ReportResult(
             body=str(body.subject.name),
@@ -115,7 +115,7 @@ def _body_entries(body: BodyResponses) -> Iterator[ReportResult]:
             block=block_entry(body.subject.block),
             mu=options.mu,
             mu_kinetic=options.mu if options.mu_kinetic is None else options.mu_kinetic,
-            friction_known=full.governing.friction_known,
+            friction_known=full.friction_known,
             assessment=assessment_entry(full.assessment.assessment),
             models=tuple(map(_model_entry, effects)),
         )

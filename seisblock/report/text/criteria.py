@@ -9,7 +9,7 @@ from rich.text import Text
 
 from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import N_, gettext
-from seisblock.criteria.compare import ACCELERATION, CriterionResult, unique_criteria
+from seisblock.criteria.compare import ACCELERATION, CriterionResult, count_agreeing
 from seisblock.models.respond.describe import outcome_text
 from seisblock.models.rock.describe import verdict
 from seisblock.output.describe_wear import describe_edges
@@ -76,26 +76,20 @@ def _summary(card: CriteriaComparison, *, gal: bool) -> Iterator[Text]:
 
 def simulated_text(card: CriteriaComparison) -> str:
     """Return the simulated outcome and the number of criteria that agree, each counted once."""
-    rows = unique_criteria(card.rows)
-    return gettext(
-        "{name}, simulation: {verdict}. {right} of {all} criteria agree.",
-        name=card.component,
-        verdict=verdict(card.outcome, card.component),
-        right=sum(row.overturns == card.outcome.overturned for row in rows),
-        all=len(rows),
-    )
+    right, count = count_agreeing(card.rows, card.outcome.overturned)
+    text = "{name}, simulation: {verdict}. {right} of {all} criteria agree."
+    return gettext(text, name=card.component, verdict=verdict(card.outcome, card.component), right=right, all=count)
 
 
 def respond_text(card: CriteriaComparison, best_estimate: BestEstimate, *, gal: bool) -> str:
     """Return the outcome of the full response and the number of criteria that agree, each counted once."""
-    rows = unique_criteria(card.rows)
-    outcome, mu = best_estimate.response.outcome, best_estimate.response.options.mu
-    right = sum(row.overturns == outcome.overturned for row in rows)
+    mu = best_estimate.response.options.mu
+    right, count = count_agreeing(card.rows, best_estimate.response.outcome.overturned)
     if best_estimate.friction_known:
         text = N_("{name}, full response (respond, friction {mu:g}): {verdict}. {right} of {all} criteria agree.")
     else:
         text = N_("{name}, full response (respond, assumed friction {mu:.2f}): {verdict}. {right} of {all} criteria agree.")
-    return gettext(text, name=card.component, mu=mu, verdict=outcome_text(best_estimate.response, gal=gal), right=right, all=len(rows))
+    return gettext(text, name=card.component, mu=mu, verdict=outcome_text(best_estimate.response, gal=gal), right=right, all=count)
 
 
 def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:

@@ -24,8 +24,8 @@ from seisblock.records import Motion, Record, motion_of
 from seisblock.references import find_citations
 from seisblock.studies.assessment import Assessment, DirectionAssessment, assess_direction, assess_object
 from seisblock.studies.report.models import BodyModels
-from seisblock.studies.respond.best_estimate import BestEstimate, best_estimate
-from seisblock.studies.respond.probability import summarize
+from seisblock.studies.respond.best_estimate import best_estimate
+from seisblock.studies.respond.probability import Probability, summarize
 from seisblock.studies.rocking.margin import Margin, find_margin, flag_near_flip
 from seisblock.studies.sampling import RUNS
 
@@ -42,17 +42,20 @@ class ModelResponse:
         Factor on the record at which rocking, sliding or uplift starts; None if undefined.
     margin : Margin or None
         Of rocking: the factors at which the verdict changes.
-    governing : BestEstimate or None
-        Of the full model: its overturning probability, and a flag for a known friction.
+    probability : Probability or None
+        Of the full model.
     assessment : DirectionAssessment or None
         Of the full model.
+    friction_known : bool
+        False if the friction is assumed.
     """
 
     response: Response[Any]
     onset: float | None
     margin: Margin | None = None
-    governing: BestEstimate | None = None
+    probability: Probability | None = None
     assessment: DirectionAssessment | None = None
+    friction_known: bool = True
 
     @property
     def kind(self) -> str:
@@ -148,8 +151,8 @@ def _model_responses(subject: BodyModels, motion: Motion, drop: float | None, gr
     peak = float(np.abs(motion.horizontal).max())
     estimate = best_estimate(subject.block, motion, mu=subject.mu, mu_kinetic=subject.mu_kinetic, gravity=gravity)
     part = assess_direction("respond", subject.block, motion, estimate.response.options, RUNS)
-    estimate = replace(estimate, probability=summarize(part.samples, subject.block))
-    yield ModelResponse(estimate.response, None, governing=estimate, assessment=part)
+    probability = summarize(part.samples, subject.block)
+    yield ModelResponse(estimate.response, None, None, probability, part, estimate.friction_known)
     rock = flag_near_flip(solve_rock(subject.block, motion, restitution=subject.restitution, gravity=gravity))
     margin = find_margin(subject.block, motion, options=RockOptions(restitution=subject.restitution, gravity=gravity))
     yield ModelResponse(rock, _ratio(rock.outcome.threshold_m_s2, peak), margin)

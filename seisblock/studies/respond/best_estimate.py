@@ -1,4 +1,4 @@
-"""Best-estimate response of one body: the full model, with a no-slip friction if the friction is unknown, and its probability."""
+"""Best-estimate response of one body: the full model, with a no-slip friction if the friction is unknown."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from seisblock.models.respond.params import rigid_body
 from seisblock.models.respond.solve import solve_respond
 from seisblock.records import Motion
 from seisblock.records._validation import Gain
-from seisblock.studies.respond.probability import Probability, respond_probability
 
 JAMMING_MARGIN = 0.8
 """Share of Painleve's limit used as no-slip friction: samples vary friction by a fifth, and no sample may jam."""
@@ -21,19 +20,16 @@ JAMMING_MARGIN = 0.8
 
 @dataclass(frozen=True, eq=False)
 class BestEstimate:
-    """Best-estimate response of a body with its overturning probability.
+    """Best-estimate response of a body.
 
     Parameters
     ----------
     response : Response
-    probability : Probability or None
-        None without samples (``runs=0``).
     friction_known : bool
         False if the friction is the no-slip friction of the body.
     """
 
     response: Response[RespondOutcome]
-    probability: Probability | None
     friction_known: bool
 
 
@@ -60,7 +56,6 @@ def best_estimate(
     mu_kinetic: float | None = None,
     vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
-    runs: int = 0,
 ) -> BestEstimate:
     """Return the full response of a body under a motion: rest, sliding, rocking, flight or overturning.
 
@@ -73,8 +68,6 @@ def best_estimate(
     vertical : bool, float or None
         True or a factor to apply the vertical component; None: if the motion has one.
     gravity : float, m/s^2
-    runs : int
-        Samples for the probability; 0 for none.
     """
     options = RespondOptions(
         mu=no_slip_friction(block) if mu is None else mu,
@@ -82,6 +75,4 @@ def best_estimate(
         vertical=vertical,
         gravity=gravity,
     )
-    response = solve_respond(block, motion, **options.keywords())
-    probability = respond_probability(block, motion, options, runs=runs) if runs else None
-    return BestEstimate(response, probability, mu is not None)
+    return BestEstimate(solve_respond(block, motion, **options.keywords()), mu is not None)
