@@ -12,7 +12,7 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.models.stack.arrays import pile_arrays
 from seisblock.models.stack.box_box import CARRIER_FACES, EDGE_EDGE, KIND
-from seisblock.models.stack.chamfered_faces import MAX_CHAMFERED_POINTS
+from seisblock.models.stack.chamfered_faces import MAX_CHAMFERED_POINTS, _incident_face
 from seisblock.models.stack.hull_pairs import edges_cross, faces_overlap, gap_between
 from seisblock.models.stack.step import SCRATCH_ROWS
 
@@ -206,3 +206,19 @@ def test_flat_boxes_have_contacts_at_corners_of_face_overlap(yaw, count):
     np.testing.assert_allclose(points[:, 2], 0.1, atol=1e-12)
     distant = 0.2 * math.sqrt(2.0) if count == 4 else 0.2 / math.cos(math.pi / 8)
     np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), distant, atol=2e-5)
+
+
+@pytest.mark.kernel
+@pytest.mark.parametrize("share", SHARES)
+def test_incident_face_is_the_most_opposed_face_at_the_deepest_corner(share):
+    """Of either stone, in the axes of the lower one."""
+    pile = pair(share)
+    directions = Rotation.random(20, np.random.default_rng(7)).as_matrix()[:, 0]
+    for rel, down in zip(random_poses(20, 6), directions, strict=True):
+        turn = rel[:9].reshape(3, 3)
+        for box, corners, matrix in zip((0, 1), corners_of(pile, rel), (np.eye(3), turn), strict=True):
+            planes = face_planes(pile, box)
+            deepest = (corners @ down).argmax()
+            is_at_corner = np.abs(planes[:, :3] @ pile.corners[box, deepest, :3] - planes[:, 3]) < 1e-12
+            expected = np.where(is_at_corner, (planes[:, :3] @ matrix.T) @ down, -np.inf).argmax()
+            assert _incident_face(rel, box == 1, down, pile.corners[box], pile.counts[box], np.zeros(3)) == expected

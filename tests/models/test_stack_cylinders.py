@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.pile.contact import PileContact
@@ -15,9 +16,11 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond.solve import solve_respond
 from seisblock.models.stack.arrays import pile_arrays
+from seisblock.models.stack.cylinder import load_directions
 from seisblock.models.stack.joint_geometry import effective_base
 from seisblock.models.stack.recorder import CREATED, DISSIPATED
 from seisblock.models.stack.solve import solve_stack
+from seisblock.models.stack.spring_contact import SLOT
 from seisblock.records import Motion
 from seisblock.validation.stack_round import (
     RADIUS,
@@ -219,3 +222,12 @@ def test_solve_stack_rejects_unsupported_options_of_round_and_worn_bases(stone, 
     pile = Pile("one", (stone,)).with_wear(extra.pop("inset", 0.0))
     with pytest.raises(ParameterError, match=message):
         solve_stack(pile, still_ground(0.1), **extra)
+
+
+def test_contact_without_a_load_has_directions_fixed_to_the_carrier():
+    """They turn with the stone; rounding would turn those of a load in the centre."""
+    for turn in Rotation.random(10, np.random.default_rng(8)):
+        rel, directions = np.zeros(18), np.full(6, np.nan)
+        rel[:9], x_axis = turn.as_matrix().ravel(), turn.apply([1.0, 0.0, 0.0])
+        load_directions(np.zeros((4, SLOT)), rel, R, directions)
+        np.testing.assert_allclose(directions, [*x_axis, *x_axis[:2], 0.0], rtol=0.0, atol=1e-15)

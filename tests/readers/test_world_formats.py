@@ -133,6 +133,13 @@ def test_read_usc_volume_2_takes_the_unit_of_the_peak(tmp_path):
         read(written(tmp_path, text.replace("CMS/SEC/SEC", "")))
 
 
+def test_line_of_the_count_is_named_in_usc_volume_2(tmp_path):
+    text = world.usc_v2(NORTH).replace("600 POINTS OF ACC", "1 POINTS OF ACC")
+    line = 1 + next(i for i, row in enumerate(text.splitlines()) if "1 POINTS OF ACC" in row)
+    with pytest.raises(RecordFormatError, match=f"line {line}\\b"):
+        read(written(tmp_path, text))
+
+
 @pytest.mark.parametrize("quantities", ["ACC", "ACC VEL"])
 def test_read_usc_volume_2_without_displacements(quantities, tmp_path):
     """Some files end with the accelerations or with the velocities."""
