@@ -115,10 +115,23 @@ def significant_duration(acceleration: FloatArray, dt: float, *, fractions: tupl
     return end - start
 
 
+def reported_intensity(intensity: float) -> float:
+    """Return the instrumental intensity with the one decimal that JMA reports: rounded to two decimals, truncated to one.
+
+    Examples
+    --------
+    >>> [reported_intensity(i) for i in (5.46, 5.494, 5.497)]
+    [5.4, 5.4, 5.5]
+    """
+    checks.finite("the intensity", intensity)
+    # the inner rounding to 6 digits removes the round-off of the multiplication before the floor
+    return math.floor(round(round(intensity, 2) * 10, 6)) / 10
+
+
 def jma_class(intensity: float) -> str:
     """Return the JMA seismic intensity class, ``0`` to ``4``, ``5-``, ``5+``, ``6-``, ``6+`` or ``7`` ([JMA1996]_).
 
-    As JMA does, the intensity is first rounded to two decimals and truncated to one.
+    It is that of :func:`reported_intensity`.
 
     Parameters
     ----------
@@ -135,10 +148,8 @@ def jma_class(intensity: float) -> str:
     >>> [jma_class(i) for i in (-1.0, 4.494, 4.497, 5.1, 7.2)]
     ['0', '4', '5-', '5+', '7']
     """
-    checks.finite("the intensity", intensity)
-    # the inner rounding to 6 digits removes the round-off of the multiplication before the floor
-    reported_intensity = math.floor(round(round(intensity, 2) * 10, 6)) / 10
-    return next((name for bound, name in _CLASSES if reported_intensity < bound), "7")
+    reported = reported_intensity(intensity)
+    return next((name for bound, name in _CLASSES if reported < bound), "7")
 
 
 def _square_integrals(acceleration: FloatArray, dt: float) -> FloatArray:

@@ -7,6 +7,7 @@ from typing import Any
 
 from seisblock.core.i18n import N_, Message, format_share, gettext, join_list, lazy_gettext
 from seisblock.core.units import GAL
+from seisblock.measures.intensity import reported_intensity
 from seisblock.output.text.record_info import describe_earthquake
 from seisblock.output.text.tables import Part, format_fixed, format_number, format_range, styled_line, table
 from seisblock.output.units_display import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
@@ -247,7 +248,7 @@ def _measure_cells(answer: StationReport, a: Unit, v: Unit) -> list[str]:
         format_number(answer.epicentral_distance_km, 3),
         format_number(None if answer.pga_m_s2 is None else answer.pga_m_s2 / a.size),
         format_number(None if answer.pgv_m_s is None else answer.pgv_m_s / v.size, 3),
-        format_number(None) if intensity is None else format_fixed(intensity, 1),
+        format_number(None) if intensity is None else format_fixed(reported_intensity(intensity), 1),
     ]
 
 
