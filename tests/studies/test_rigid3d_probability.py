@@ -192,3 +192,15 @@ def test_figure_in_three_dimensions_is_whole_in_japanese():
     with use_locale("ja"):
         titles = [axis.get_title(loc=place) for axis in figure([response]).axes for place in ("left", "center")]
     assert any("転倒" in title for title in titles) and not any("overturns" in title for title in titles)
+
+
+def test_figure_in_three_dimensions_scales_to_the_interval_that_it_shows():
+    """A fallen boulder rolls on; its twist to the end of the record made that until the fall a line."""
+    motion = shaking(8.0)
+    motion = replace(motion, rows=np.pad(motion.acceleration, ((0, 0), (0, 600))))
+    response = solve_rigid3d(Block(0.2, 0.8, 0.2), motion, mu=0.7)
+    panels = figure([response]).axes[-3:]
+    end = panels[0].get_xlim()[1]
+    assert end < response.time[-1]
+    for panel in panels:
+        assert panel.lines[0].get_xdata()[-1] <= end

@@ -41,6 +41,8 @@ def shaking_text(name: str, shaking: BodyShaking, *, gal: bool = True, static: b
     'EW: PGA 100.0 gal, PGV 30.00 kine, equivalent frequency 1.590 Hz; below the threshold of 200.0 gal.'
     >>> shaking_text("EW", BodyShaking(3.0, 0.3, 1.59, 2.0, 1.25, 0.25)).partition("; ")[2]
     'above the threshold of 200.0 gal for 1.250 s (longest interval 0.250 s).'
+    >>> shaking_text("EW", BodyShaking(3.0, 0.3, 1.59, 2.0, 0.0, 0.0)).partition("; ")[2]  # the peak acts to the other side
+    'below the threshold, 200.0 gal to the weaker side.'
     >>> shaking_text("EW", BodyShaking(0.0, 0.0, None, None, None, None))
     'EW: PGA 0.0 gal, PGV 0.0000 kine, equivalent frequency -.'
     """
@@ -53,6 +55,10 @@ def shaking_text(name: str, shaking: BodyShaking, *, gal: bool = True, static: b
         template = N_(
             "{name}: PGA {pga}, PGV {pgv}, equivalent frequency {frequency}; static threshold of uplift {threshold} (without "
             "amplification by the springs)."
+        )
+    elif not shaking.time_above_threshold_s and shaking.pga_m_s2 >= shaking.threshold_m_s2:
+        template = N_(
+            "{name}: PGA {pga}, PGV {pgv}, equivalent frequency {frequency}; below the threshold, {threshold} to the weaker side."
         )
     elif not shaking.time_above_threshold_s:
         template = N_("{name}: PGA {pga}, PGV {pgv}, equivalent frequency {frequency}; below the threshold of {threshold}.")

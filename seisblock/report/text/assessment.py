@@ -96,7 +96,7 @@ def name_pile(text: str, stone_count: int) -> str:
     return text if stone_count == 1 else gettext("{count} stones as one rigid block, {text}", count=stone_count, text=text)
 
 
-def assessment_lines(extra: Mapping[str, Any], body: Any) -> Iterator[Text]:
+def assessment_lines(extra: Mapping[str, Any], body: Any = None) -> Iterator[Text]:
     """Yield the headline of a direction, and until when its single run is predictable; nothing without samples.
 
     Parameters

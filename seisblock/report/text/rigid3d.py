@@ -45,7 +45,7 @@ def tables(responses: Sequence[Response[Rigid3dOutcome]], extras: Sequence[Mappi
 
 
 def _summary(response: Response[Rigid3dOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:
-    yield from assessment_lines(extra, response.body)
+    yield from assessment_lines(extra)
     yield styled_line(describe(response, gal=gal), "" if "assessment" in extra else "bold")
     if "probability" in extra:
         yield styled_line("  " + probability_sentence(extra["probability"], gal=gal))

@@ -46,7 +46,7 @@ def tables(responses: StackResponses, extras: Sequence[Mapping[str, Any]], *, ga
 
 def _summary(response: Response[StackOutcome], extra: Mapping[str, Any], *, with_name: bool, gal: bool) -> Iterator[Text]:
     text = describe(response)
-    yield from assessment_lines(extra, response.body)
+    yield from assessment_lines(extra)
     yield styled_line(gettext("{name}: {text}", name=response.motion.name or "x", text=text) if with_name else text)
     if "probability" in extra:
         yield styled_line("  " + probability_sentence(extra["probability"], gal=gal))
