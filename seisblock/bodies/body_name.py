@@ -26,8 +26,12 @@ def body_name(name: str) -> Message:
     >>> with use_locale("ja"):
     ...     gettext("{name}", name=body_name("gravestone")), gettext(body_name("case"))
     ('墓石', 'case')
+    >>> str(body_name("display_case"))
+    'display case'
     """
-    # names made by the program, such as that of a block of given sizes, are messages
-    if isinstance(name, Message) or name in TRANSLATED_NAMES:
+    # names made by the program, such as that of a block of given sizes, are messages; the file of a bundled body is display_case.toml
+    if isinstance(name, Message):
         return lazy_gettext(escape_control(name))
+    if (bundled := name.replace("_", " ")) in TRANSLATED_NAMES:
+        return lazy_gettext(bundled)
     return lazy_gettext("{name}", name=escape_control(name))

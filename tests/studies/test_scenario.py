@@ -473,6 +473,15 @@ def test_find_measures_solves_no_restraint_of_a_safe_object(monkeypatch):
     assert find_measures(SolverBody("box", Block(0.4, 0.6), RespondOptions(mu=0.5)), records, target=0.05).measures[-1].value == 0.0
 
 
+def test_find_measures_asks_no_change_of_an_object_that_meets_the_target(monkeypatch):
+    """More runs put a case of 60 cm above its target: "no measure required", and a base of 60.9 cm."""
+    monkeypatch.setattr("seisblock.studies.scenario.secure._Search.own_probability", lambda self: 0.05)
+    records, _ = scenario_suite(ScenarioTarget(pga_m_s2=5.0, pgv_m_s=0.6), 10)
+    result = find_measures(SolverBody("box", Block(0.3, 1.0, mass=80.0), RespondOptions(mu=0.7)), records, target=0.05)
+    values = {measure.measure: (measure.value, measure.overturning_probability) for measure in result.measures}
+    assert values[WIDTH] == (0.3, 0.05) and values[HEIGHT] == (1.0, 0.05) and values[BASE_MASS] == (0.0, 0.05)
+
+
 def test_scenario_suite_rejects_too_few_records():
     with pytest.raises(ParameterError):
         scenario_suite(ScenarioTarget(jma=6.0), 3)

@@ -373,6 +373,12 @@ def find_measures(
         measures.append(_measure(body, name, rows, decided, target, has_mass=has_mass))
     own_probability, height = search.own_probability(), body.body.height if height is None else height
     if own_probability <= target:
+        # the object itself meets the target, although other and more runs may require a little more
+        own = {WIDTH: (min, body.body.width), HEIGHT: (max, body.body.height), BASE_MASS: (min, 0.0)}
+        for index, measure in enumerate(measures):
+            nearer, value = own.get(measure.measure, (max, measure.value))
+            if measure.value not in (None, value) and nearer(measure.value, value) == value:
+                measures[index] = replace(measure, value=value, overturning_probability=own_probability)
         unit, curve = "N" if has_mass else "1", ((0.0, own_probability),)
         restraint = Measure(RESTRAINT, 0.0, unit, own_probability, 0.0, moment=0.0, height_m=height, curve=curve)
     else:
