@@ -40,8 +40,7 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
     solve : callable
         Returns the results of all azimuths of a record, the worst first.
     """
-    from seisblock.records import motion_of
-    from seisblock.records.motion import azimuth_name
+    from seisblock.records.motion import motion_toward
 
     if not is_azimuth_sweep(source):
         yield from ((motion, ()) for record in load_records(source) for motion in selected_motions(record, source))
@@ -54,7 +53,7 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
             results = sorted(results, key=lambda result: -_peak(record, result.azimuth_deg))
             text = N_("no motion in any of {count} azimuths; largest PGA at {azimuth:g}°")
         info(text, count=len(results), azimuth=results[0].azimuth_deg)
-        yield motion_of(record, azimuth_name(record, results[0].azimuth_deg)), results
+        yield motion_toward(record, results[0].azimuth_deg), results
 
 
 def ranked_sweep(
@@ -79,10 +78,9 @@ def ranked_sweep(
 
 def _peak(record: Record, azimuth: float) -> float:
     """Return the PGA in an azimuth, m/s^2."""
-    from seisblock.records import motion_of
-    from seisblock.records.motion import azimuth_name
+    from seisblock.records.motion import motion_toward
 
-    return float(abs(motion_of(record, azimuth_name(record, azimuth)).horizontal).max())
+    return float(abs(motion_toward(record, azimuth).horizontal).max())
 
 
 def sweep_block(choice: BodyChoice, motion: Motion, directions: Sequence[Any]) -> Block:

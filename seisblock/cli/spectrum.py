@@ -168,8 +168,7 @@ def _spectra(source: Source, sizes: Any, alphas: Any, inset: EdgeWear, options: 
     """Yield the spectrum of each selected motion; in a sweep, with the motion of the largest PGA."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
-    from seisblock.records import motion_of
-    from seisblock.records.motion import azimuth_name
+    from seisblock.records.motion import motion_toward
     from seisblock.studies.rocking.spectrum import rocking_spectrum, rocking_spectrum_all_azimuths
 
     if not is_azimuth_sweep(source):
@@ -183,7 +182,7 @@ def _spectra(source: Source, sizes: Any, alphas: Any, inset: EdgeWear, options: 
             spectrum = rocking_spectrum_all_azimuths(sizes, alphas, record, inset=inset, progress=advance, options=options)
         assert spectrum.azimuths_deg is not None
         strongest = max(
-            (motion_of(record, azimuth_name(record, azimuth)) for azimuth in spectrum.azimuths_deg),
+            (motion_toward(record, azimuth) for azimuth in spectrum.azimuths_deg),
             key=lambda candidate: abs(candidate.horizontal).max(),
         )
         yield replace(strongest, name=ALL_AZIMUTHS), spectrum

@@ -266,7 +266,7 @@ def _run_study(
     reinforced: bool,
 ) -> None:
     from seisblock.cli.progress import progress
-    from seisblock.report.json.stack_study import study_document
+    from seisblock.report.json.stack import study_document
     from seisblock.report.text import stack_criterion as text_output
     from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, record_thresholds, rigid_levels
 

@@ -140,7 +140,7 @@ def uplift(
 def _run_harmonic(source: Source, output: OutputOptions, figure: int | None, params: dict[str, Any]) -> None:
     """Run ``--harmonic``."""
     from seisblock.cli.progress import progress
-    from seisblock.report.json.uplift_study import harmonic_document
+    from seisblock.report.json.uplift import harmonic_document
     from seisblock.report.text import uplift_harmonic as text_output
     from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_regions
 

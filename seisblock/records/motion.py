@@ -274,6 +274,11 @@ def azimuth_name(record: Record, azimuth_deg: float) -> str:
     return f"{name}.0" if is_other and "." not in name else name
 
 
+def motion_toward(record: Record, azimuth_deg: float) -> Motion:
+    """Return the motion of a record towards an azimuth, degrees clockwise from north."""
+    return motion_of(record, azimuth_name(record, azimuth_deg))
+
+
 def requested_azimuth(motion: Motion) -> float | None:
     """Return the azimuth of a motion of a record that was requested by its degrees, None for a recorded component."""
     record = motion.record

@@ -15,8 +15,8 @@ from seisblock.core.typing import Progress
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome
 from seisblock.models.rigid3d.solve import Body
-from seisblock.records import Record, motion_of
-from seisblock.records.motion import azimuth_name
+from seisblock.records import Record
+from seisblock.records.motion import motion_toward
 from seisblock.studies.assessment import classify
 from seisblock.studies.parallel import map_threads
 from seisblock.studies.respond.azimuths import RespondAzimuth
@@ -92,7 +92,7 @@ def sample_orientations(
     draws = draw_samples(runs, seed)
 
     def work(index: int) -> Rigid3dOutcome | None:
-        motion = motion_of(record, azimuth_name(record, 360.0 * index / runs))
+        motion = motion_toward(record, 360.0 * index / runs)
         return rigid3d_outcomes(standing, motion, options, draws[index : index + 1], priors, workers=1)[0]
 
     samples = rigid3d_samples(list(map_threads(work, range(runs), progress=progress)), standing, priors, seed)
@@ -136,7 +136,7 @@ def rank_by_probability(
     ranked = []
     for count, direction in enumerate(directions, start=1):
         block = body.block_toward(direction.azimuth_deg).without_ranges(*known)
-        motion = motion_of(record, azimuth_name(record, direction.azimuth_deg))
+        motion = motion_toward(record, direction.azimuth_deg)
         try:
             samples = sample(solver, block, motion, options, min(runs, AZIMUTH_RUNS), priors, seed=seed)
         except SolverError:

@@ -14,9 +14,9 @@ from seisblock.core import checks
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray
-from seisblock.records import Motion, Record, motion_of
+from seisblock.records import Motion, Record
 from seisblock.records._validation import Gain, vertical_gain
-from seisblock.records.motion import azimuth_name
+from seisblock.records.motion import motion_toward
 from seisblock.records.rotation import oriented_pair
 
 STEP_DEG = 5.0
@@ -96,7 +96,7 @@ def make_azimuth_sweep(
     checks.instance(record, Record)
     azimuths = sweep_azimuths(body, step_deg)
     oriented_pair(record)
-    motion = motion_of(record, azimuth_name(record, 0.0))
+    motion = motion_toward(record, 0.0)
     turn = np.radians(azimuths)
     gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, vertical_gain(motion, vertical))])
     blocks = tuple(body.block_toward(azimuth) for azimuth in azimuths.tolist())

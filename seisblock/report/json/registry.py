@@ -51,9 +51,9 @@ def document_schemas(command: str) -> list[DocumentSchema]:
     if command not in document_commands():
         raise ParameterError("{command!r} has no JSON document; available: {known}", command=command, known=list(document_commands()))
     module_name = f"{__package__}.{'citations' if command in CITATION_COMMANDS else command.replace('-', '_')}"
-    modules = [importlib.import_module(name) for name in (module_name, f"{module_name}_study") if importlib.util.find_spec(name)]
-    plain = [plain_schema(command)] if command in solver_names() and not importlib.util.find_spec(module_name) else []
-    schemas = [*plain, *(schema for module in modules for schema in vars(module).values())]
+    if not importlib.util.find_spec(module_name):
+        return [plain_schema(command)]
+    schemas = vars(importlib.import_module(module_name)).values()
     return [schema for schema in schemas if isinstance(schema, DocumentSchema) and schema.command == command]
 
 

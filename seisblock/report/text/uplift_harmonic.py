@@ -9,7 +9,7 @@ from typing import Any
 from seisblock.core.i18n import N_, gettext
 from seisblock.output.io.history_csv import CsvTable
 from seisblock.output.text.tables import Part, details, styled_line, table
-from seisblock.report.json.uplift_study import RATIO_KEYS
+from seisblock.report.json.uplift import RATIO_KEYS
 from seisblock.studies.uplift_regions import UpliftRegion
 
 SYMBOLS = {"alpha": "α", "gamma": "γ", "beta": "β", "damping": "h", "phi": "φ", "rho": "ρ"}

@@ -20,7 +20,7 @@ from seisblock.readers.options import ReadOptions
 from seisblock.readers.read import read_source
 from seisblock.readers.source import Location
 from seisblock.records import Motion, Preparation, Record, motion_of
-from seisblock.records.motion import ALL_AZIMUTHS, azimuth_name
+from seisblock.records.motion import ALL_AZIMUTHS, motion_toward
 from seisblock.records.rotation import oriented_pair
 from seisblock.records.site import get_earthquake
 from seisblock.studies.azimuths import sweep_azimuths
@@ -85,7 +85,7 @@ class Suite:
             return
         record = self.records[self.owner[motion]]
         for azimuth in sweep_azimuths(body).tolist():
-            yield motion_of(record, azimuth_name(record, azimuth))
+            yield motion_toward(record, azimuth)
 
     def cases(self, motion: int, body: Any, *, spatial: bool = False) -> Iterator[tuple[Any, Motion]]:
         """Yield the directions of a motion with the body in each: with all azimuths the base of a block is projected, as in a sweep.

@@ -23,8 +23,8 @@ from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import respond_params
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rigid3d.solve import Body, solve_rigid3d
-from seisblock.records import Record, motion_of
-from seisblock.records.motion import azimuth_name
+from seisblock.records import Record
+from seisblock.records.motion import motion_toward
 from seisblock.records.rotation import oriented_pair
 from seisblock.studies.azimuths import STEP_DEG, make_azimuth_sweep
 from seisblock.studies.parallel import map_threads
@@ -210,7 +210,7 @@ def rigid3d_directions(body: Body, record: Record, options: Rigid3dOptions, *, s
     oriented_pair(record)
 
     def work(azimuth: float) -> Rigid3dAzimuth:
-        outcome = solve_rigid3d(solid, motion_of(record, azimuth_name(record, azimuth)), **options.keywords()).outcome
+        outcome = solve_rigid3d(solid, motion_toward(record, azimuth), **options.keywords()).outcome
         return Rigid3dAzimuth(
             azimuth,
             outcome.overturned,

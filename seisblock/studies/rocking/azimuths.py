@@ -16,8 +16,8 @@ from seisblock.core._display import DisplayMixin
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
 from seisblock.models.rock.solve import solve_rock
-from seisblock.records import Record, motion_of
-from seisblock.records.motion import azimuth_name
+from seisblock.records import Record
+from seisblock.records.motion import motion_toward
 from seisblock.studies.azimuths import STEP_DEG, make_azimuth_sweep
 from seisblock.studies.rocking.verdicts import parallel_verdicts
 
@@ -101,7 +101,7 @@ def rock_directions(
     for row, (azimuth, block) in enumerate(zip(azimuth_sweep.azimuths.tolist(), azimuth_sweep.blocks, strict=True)):
         fallen, time = bool(verdicts.overturned[row]), float(verdicts.overturning_time_s[row])
         if fallen and np.isnan(time):  # falls after the record: energy decides, and a single run gives the time
-            fall_time = solve_rock(block, motion_of(record, azimuth_name(record, azimuth)), **options.keywords()).outcome.overturning_time_s
+            fall_time = solve_rock(block, motion_toward(record, azimuth), **options.keywords()).outcome.overturning_time_s
         else:
             fall_time = azimuth_sweep.motion.start_s + time if fallen else None
         gave_up = bool(verdicts.gave_up[row])

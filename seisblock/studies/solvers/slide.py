@@ -14,9 +14,9 @@ from seisblock.models.slide.final_slip import slip_at_rest
 from seisblock.models.slide.model import SLIDE, STICK, UNDEFINED, parameters
 from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.solve import motion_gains, raise_lift_off
-from seisblock.records import Motion, Record, motion_of
+from seisblock.records import Motion, Record
 from seisblock.records._validation import vertical_gain
-from seisblock.records.motion import azimuth_name
+from seisblock.records.motion import motion_toward
 from seisblock.studies.azimuths import sweep_azimuths
 from seisblock.studies.batch.directions import DIRECTIONS, Worst
 from seisblock.studies.fragility.damage_states import SLIP, EndStates
@@ -55,7 +55,7 @@ def _end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, dr
 def _worst_azimuth(solver_body: SolverBody, record: Record, runs: int, seed: int) -> Worst:
     """Return the worst direction of a sliding object."""
     base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
-    motions = [motion_of(record, azimuth_name(record, azimuth)) for azimuth in sweep_azimuths(base)]
+    motions = [motion_toward(record, azimuth) for azimuth in sweep_azimuths(base)]
     points = slide_study(
         base.mu,
         motions=motions,

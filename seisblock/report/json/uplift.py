@@ -1,4 +1,4 @@
-"""Document of ``seisblock uplift --harmonic``."""
+"""JSON document of ``seisblock uplift --harmonic``; that of a record has the keys of the model."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from msgspec import Struct
 from seisblock.models.uplift.minima import UpliftMinimum
 from seisblock.output.json.bodies import SpringBlockEntry, spring_block_entry
 from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.solver import plain_schema
 from seisblock.references import papers
 from seisblock.studies.uplift_regions import UpliftRegion
 
@@ -105,6 +106,7 @@ class HarmonicResult(Result, frozen=True, kw_only=True):
     curve: tuple[CurvePointEntry, ...]
 
 
+UPLIFT = plain_schema("uplift")
 HARMONIC = DocumentSchema("uplift", HarmonicParameters, HarmonicResult, name="harmonic")
 
 
