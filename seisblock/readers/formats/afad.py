@@ -11,7 +11,7 @@ from datetime import datetime
 
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import N_
-from seisblock.readers._header import drop_missing, parse_datetime, parse_number, search_group
+from seisblock.readers._header import drop_missing, parse_coordinates, parse_datetime, parse_number, search_group
 from seisblock.readers._header_check import flag_count, flag_peak_mismatch, half_last_digit
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import line_error
@@ -52,8 +52,8 @@ def read_afad(blob: RawFile) -> Record:
         peak = search_group(rf"\({re.escape(name)}\)\s*([\d.]+)", header[peak_key])
         # printed digits of peak and samples
         flags += flag_peak_mismatch(direction.code, peak, row, "gal", 4.0 * half_last_digit(peak), signed=False, about_mean=True)
-    latitude, longitude = _coordinates(header.get("STATION COORDINATES", ""))
-    event_latitude, event_longitude = _coordinates(header.get("EPICENTER COORDINATES", ""))
+    latitude, longitude = parse_coordinates(header.get("STATION COORDINATES", ""))
+    event_latitude, event_longitude = parse_coordinates(header.get("EPICENTER COORDINATES", ""))
     metadata = {
         "unit": "gal",
         "station_name": header.get("PLACE"),
@@ -75,18 +75,6 @@ def read_afad(blob: RawFile) -> Record:
         format=FORMAT.name,
         metadata=drop_missing(metadata),
         doubts=flags,
-    )
-
-
-def _coordinates(text: str) -> tuple[float | None, float | None]:
-    """Return latitude and longitude of ``37.87470N-27.59223E``."""
-    match = re.fullmatch(r"([\d.]+)\s*([NS])\s*-\s*([\d.]+)\s*([EW])", text.strip())
-    if match is None:
-        return None, None
-    latitude, longitude = parse_number(match[1]), parse_number(match[3])
-    return (
-        latitude if latitude is None or match[2] == "N" else -latitude,
-        longitude if longitude is None or match[4] == "E" else -longitude,
     )
 
 

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from datetime import datetime
 
 from seisblock.core.i18n import N_
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers._fixed_width import parse_fixed_width, parse_sample_count
-from seisblock.readers._header import drop_missing, parse_number, search_group, utc_datetime
+from seisblock.readers._header import drop_missing, parse_datetime, parse_number, search_group
 from seisblock.readers._header_check import qc_flag
 from seisblock.readers.directions import Direction, direction_from_azimuth
 from seisblock.readers.lines import line_error, read_trimmed_lines
@@ -68,7 +67,7 @@ def read_bhrc(blob: RawFile) -> Record:
         "magnitude": next(
             (m for kind in ("Mw", "ML", "Ms", "mb") if (m := parse_number(search_group(rf"\b{kind}\s*([\d.]+)", text)))), None
         ),
-        "origin_time": _origin(head),
+        "origin_time": parse_datetime(head.partition("Origin Time")[2])[0],
         "channels": {component.code: letter for component, letter in zip(components, _letters(lines, begins), strict=True)},
         "event": search_group(r"VOL1DS FILE:\s*(\S+)", lines[0]),
     }
@@ -115,14 +114,6 @@ def _coordinates(kind: str, text: str) -> dict[str, object]:
         return {}
     signs = (-1.0 if match[2] == "S" else 1.0, -1.0 if match[4] == "W" else 1.0)
     return {f"{kind}_latitude_deg": signs[0] * float(match[1]), f"{kind}_longitude_deg": signs[1] * float(match[3])}
-
-
-def _origin(text: str) -> datetime | None:
-    match = re.search(r"Origin Time\s*:\s*(\d{4})/(\d{1,2})/(\d{1,2})\s+(\d{1,2}):(\d{2}):(\d{2})", text)
-    if match is None:
-        return None
-    year, month, day, hour, minute = (int(part) for part in match.groups()[:5])
-    return utc_datetime(year, month, day, hour, minute, float(match[6]))
 
 
 FORMAT = register(

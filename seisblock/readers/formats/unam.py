@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from datetime import datetime, timedelta
 
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import N_
-from seisblock.readers._header import drop_missing, parse_number, search_group, utc_datetime
+from seisblock.readers._header import drop_missing, parse_datetime, parse_number, search_group
 from seisblock.readers._header_check import flag_count, flag_duration, flag_peak_mismatch, half_last_digit
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.registry import Format, register
@@ -58,7 +57,7 @@ def read_unam(blob: RawFile) -> Record:
         flags += flag_count(int(parse_number(count) or 0), row.size)
         flags += flag_peak_mismatch(direction.code, peak, row, unit, 2.0 * half_last_digit(peak))
         flags += flag_duration(duration, row.size, dt)
-    start = _time(header.get("FECHA DEL SISMO [GMT]", ""), _first_value(header, "HORA DE LA PRIMERA MUESTRA"))
+    start = _time(header, "HORA DE LA PRIMERA MUESTRA")
     metadata = _metadata(header, further)
     origin = metadata.get("origin_time")
     # the header has only the date of the earthquake: records after midnight, or whose pre-event memory begins before it
@@ -107,13 +106,9 @@ def _per_channel(name: str, header: dict[str, str], start: str) -> list[str]:
     return values[:count]
 
 
-def _time(date: str, time: str) -> datetime | None:
-    """Return the UTC time of ``2017/09/19`` and ``18:14:18``."""
-    match = re.fullmatch(r"(\d{4})/(\d{1,2})/(\d{1,2}) (\d{1,2}):(\d{1,2}):(\d{1,2}(?:\.\d+)?)", f"{date.strip()} {time.strip()}")
-    if match is None:
-        return None
-    year, month, day, hour, minute = (int(part) for part in match.groups()[:5])
-    return utc_datetime(year, month, day, hour, minute, float(match[6]))
+def _time(header: dict[str, str], start: str) -> datetime | None:
+    """Return the UTC time on the day of the earthquake that the first key with this beginning gives."""
+    return parse_datetime(f"{header.get('FECHA DEL SISMO [GMT]', '')} {_first_value(header, start)}")[0]
 
 
 def _coordinate(text: str, negative: str) -> float | None:
@@ -134,7 +129,7 @@ def _metadata(header: dict[str, str], further: dict[str, str]) -> dict[str, obje
             "event_longitude_deg": _coordinate(further.get(event, ""), "W"),
             "event_depth_km": parse_number(_first_value(header, "PROFUNDIDAD FOCAL")),
             "magnitude": parse_number(search_group(r"=\s*([\d.]+)", header.get("MAGNITUD(ES)", ""))),
-            "origin_time": _time(header.get("FECHA DEL SISMO [GMT]", ""), _first_value(header, "HORA EPICENTRO")),
+            "origin_time": _time(header, "HORA EPICENTRO"),
         }
     )
 

@@ -550,11 +550,9 @@ def _efficiencies(
 
 def _band(medians: FloatArray, betas: FloatArray, levels: FloatArray, ends: list[float]) -> Band:
     """Return the interval of the probability at intensities across the levels."""
-    from scipy.special import ndtr
-
     if medians.size < 2:
         return None
     # pointwise quantiles of the bootstrap curves
     x = np.geomspace(float(levels.min()), float(levels.max()), 121)
-    low, high = np.quantile(ndtr((np.log(x) - np.log(medians)[:, None]) / betas[:, None]), ends, axis=0)
+    low, high = np.quantile(_probabilities(x, medians, betas), ends, axis=0)
     return tuple(zip(x.tolist(), low.tolist(), high.tolist(), strict=True))

@@ -15,7 +15,6 @@ from seisblock.core.io.csv_table import parse_heading
 from seisblock.core.io.spreadsheet import read_sheet
 from seisblock.records.site import great_circle_km, valid_coordinates
 from seisblock.studies.map.stations import StationReport, Stations
-from seisblock.studies.survey.assumptions import Assumptions
 from seisblock.studies.survey.estimate import ShakingEstimate, estimate_shaking
 from seisblock.studies.survey.likelihood import counted_survey
 
@@ -156,9 +155,7 @@ def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
     return SurveyedPlace(cells["place"] or lazy_gettext("line {line}", line=line), latitude, longitude, stones, fallen)
 
 
-def compare_surveys(
-    places: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery, assumptions: Assumptions | None = None
-) -> tuple[SurveyComparison, ...]:
+def compare_surveys(places: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery) -> tuple[SurveyComparison, ...]:
     """Return the comparison of each surveyed place, in the given order.
 
     Parameters
@@ -167,17 +164,13 @@ def compare_surveys(
     station_survey : Stations
     cemetery : Cemetery
         Population of stones, sampled by each survey.
-    assumptions : Assumptions
-        Of the estimates.
     """
     stations = [answer for answer in station_survey.mapped if answer.jma_intensity is not None]
-    return tuple(_compare_place(place, stations, cemetery, assumptions) for place in places)
+    return tuple(_compare_place(place, stations, cemetery) for place in places)
 
 
-def _compare_place(
-    place: SurveyedPlace, stations: Sequence[StationReport], cemetery: Cemetery, assumptions: Assumptions | None
-) -> SurveyComparison:
-    estimate = estimate_shaking(counted_survey(cemetery, place.fallen, place.stones), None, assumptions)
+def _compare_place(place: SurveyedPlace, stations: Sequence[StationReport], cemetery: Cemetery) -> SurveyComparison:
+    estimate = estimate_shaking(counted_survey(cemetery, place.fallen, place.stones), None)
     neighbours = (
         Neighbour(station.station or station.record, _distance_km(place, station), station.jma_intensity)
         for station in stations

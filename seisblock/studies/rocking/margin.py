@@ -35,10 +35,8 @@ STEP = 0.002
 FLIP_TOLERANCE = 1e-6
 """Tolerance of the bisection of a change of verdict, in the factor."""
 
-NEARBY_SHARE = 0.02
-"""A verdict is sensitive if it changes within this share of the record's amplitude."""
-
-NEARBY_STEPS = 41
+NEARBY_FACTORS = np.linspace(0.98, 1.02, 41)
+"""Fine grid of factors around 1, which is among them: a verdict is sensitive if it changes within 2 % of the record's amplitude."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -125,7 +123,7 @@ def find_margin(
     check_limit(N_("factors"), math.floor(min(limit / step, 1e18)), MAX_RUNS)
     regular_factors = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
     # a finer grid around 1, so that a verdict sensitive to 2 % of the amplitude is not missed
-    grid = np.unique(np.concatenate([regular_factors, _nearby_factors()]))
+    grid = np.unique(np.concatenate([regular_factors, NEARBY_FACTORS]))
     factors = grid[grid <= limit]
     verdicts = overturns_at(params, motion, factors, progress=progress)
     flips = _bisect_flips(params, motion, factors, verdicts)
@@ -164,18 +162,12 @@ def flag_near_flip(response: Response[RockOutcome]) -> Response[RockOutcome]:
     return replace(response, outcome=outcome, warnings=warnings)
 
 
-def nearest_flip(
-    block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, options: RockOptions = RockOptions()
-) -> float | None:
-    """Return the factor nearest to 1, within `share` of it, with another verdict than factor 1.
+def nearest_flip(block: Block, motion: Motion, *, options: RockOptions = RockOptions()) -> float | None:
+    """Return the factor nearest to 1, of :data:`NEARBY_FACTORS`, with another verdict than factor 1.
 
     Parameters
     ----------
     block, motion : Block, Motion
-    share : float, 1
-        Largest distance of the factors from 1.
-    steps : int
-        Number of factors; odd, so that 1 is among them.
     options : RockOptions
 
     Returns
@@ -190,12 +182,6 @@ def nearest_flip(
     >>> nearest_flip(Block(0.24, 0.8), pulses[0]) is None, nearest_flip(Block(0.24, 0.8), pulses[1])
     (True, 1.011)
     """
-    factors = _nearby_factors(share, steps)
-    verdicts = overturns_at(rock_params(block, motion, options), motion, factors)
-    flipped_factors = factors[verdicts != verdicts[steps // 2]]
+    verdicts = overturns_at(rock_params(block, motion, options), motion, NEARBY_FACTORS)
+    flipped_factors = NEARBY_FACTORS[verdicts != verdicts[NEARBY_FACTORS.size // 2]]
     return round(float(flipped_factors[np.abs(flipped_factors - 1.0).argmin()]), 12) if flipped_factors.size else None
-
-
-def _nearby_factors(share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS) -> FloatArray:
-    """Return the fine grid of factors around 1, (steps,)."""
-    return np.linspace(1.0 - share, 1.0 + share, steps)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from seisblock.core.errors import ParameterError
-from seisblock.measures import Conventions, FilterRange, measure
+from seisblock.measures import FilterRange, measure
 from seisblock.records import Motion, Record, motion_of
 
 FrequencyKind = Literal["pga_pgv", "fourier", "pulse_width"]
@@ -40,7 +40,6 @@ def component_shakings(
     *,
     kind: FrequencyKind = "pga_pgv",
     frequency: float | None = None,
-    conventions: Conventions | None = None,
 ) -> list[Shaking]:
     """Return PGA and equivalent frequency of each component of a record ([Furukawa2009]_ section 3(5)e).
 
@@ -54,8 +53,6 @@ def component_shakings(
         Definition of the equivalent frequency; the paper's choice is PGA/(2 pi PGV), both of one component.
     frequency : float, Hz
         Overrides the equivalent frequency of the record.
-    conventions : Conventions
-        Filter of the PGV.
 
     Raises
     ------
@@ -63,7 +60,7 @@ def component_shakings(
         If a component has no equivalent frequency of this kind.
     """
     shakings = []
-    for m in measure(record, components, conventions=conventions).components:
+    for m in measure(record, components).components:
         f = getattr(m.equivalent_frequency_hz, kind) if frequency is None else frequency
         if f is None or not m.pga_m_s2 > 0.0:
             raise ParameterError(

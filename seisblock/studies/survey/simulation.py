@@ -132,7 +132,6 @@ def sampled_overturns(
     motion: Motion,
     runs: int,
     *,
-    variation: ParameterVariation = ParameterVariation(),
     seed: int = 0,
     inset: EdgeWear | None = None,
     width: float = PAPER_WIDTH,
@@ -151,8 +150,6 @@ def sampled_overturns(
         As for :func:`simulated_overturns`.
     runs : int
         Number of samples of each stone.
-    variation : ParameterVariation
-        Tolerances.
     seed : int
     progress : callable
         Called with the number of finished runs and the total.
@@ -160,7 +157,7 @@ def sampled_overturns(
     require_undowelled(cemetery)
     options = RockOptions(vertical=vertical, gravity=gravity)
     blocks, index = _distinct_blocks(cemetery, inset, width)
-    draws = draw_samples(runs, checks.seed(seed))
+    draws, variation = draw_samples(runs, checks.seed(seed)), ParameterVariation()
     # one batch of all stones and samples keeps all cores busy
     parts = [sample_rock_params(block, motion, variation, draws, options) for block in blocks]
     stones = replace(

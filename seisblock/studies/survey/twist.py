@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -43,6 +43,9 @@ PILOT_SHARE = 4
 
 RANGE_MARGIN = 1.25
 """Factor on both ends of the range of the pilot, whose runs have one body each: others move or overturn at other factors."""
+
+VARIATION = ParameterVariation(amplitude=0.0)
+"""Half widths of what is known; the amplitude does not vary beside the factor."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +114,6 @@ def infer_twist(
     limit: float = MAX_FACTOR,
     runs: int = RUNS,
     level: float = 0.9,
-    priors: ParameterVariation = ParameterVariation(),
     seed: int = 0,
     progress: Progress | None = None,
 ) -> TwistEstimate:
@@ -133,8 +135,6 @@ def infer_twist(
     runs : int
     level : float
         Probability of the interval.
-    priors : ParameterVariation
-        Half widths of what is known; the amplitude does not vary beside the factor.
     seed : int
     progress : callable
         Called with the number of finished runs and the total.
@@ -169,8 +169,8 @@ def infer_twist(
     def run(low: float, high: float, count: int, first_seed: int, advance: Progress | None) -> list[tuple[float, Rigid3dOutcome]]:
         # one factor per stratum of equal probability
         scales = low * (high / low) ** ((np.arange(count) + rng.uniform(size=count)) / count)
-        draws, variation = draw_samples(count, first_seed), replace(priors, amplitude=0.0)
-        outcomes = rigid3d_outcomes(body, motion, options, draws, variation, scales=scales, progress=advance)
+        draws = draw_samples(count, first_seed)
+        outcomes = rigid3d_outcomes(body, motion, options, draws, VARIATION, scales=scales, progress=advance)
         return [(scale, outcome) for scale, outcome in zip(scales.tolist(), outcomes, strict=True) if outcome is not None]
 
     # most factors are either too small to move the object or overturn it; the pilot finds the range between
