@@ -99,7 +99,7 @@ def map(  # noqa: A001 - the command's name
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.cli.load_records import check_single_window, make_preparation
     from seisblock.cli.progress import progress
-    from seisblock.cli.write_results import figure_of, write_results
+    from seisblock.cli.write_results import figure_of, write_page, write_results
     from seisblock.core.errors import ParameterError, RecordError
     from seisblock.output.io.atomic import check_distinct_outputs
     from seisblock.records.analytic import is_analytic
@@ -144,12 +144,9 @@ def map(  # noqa: A001 - the command's name
         write_geojson(geojson, stations, surveys)
         info("wrote {path}", path=geojson)
     if html is not None:
-        from seisblock.output.io.atomic import write_text
         from seisblock.report.html.map import map_page
 
-        with progress("drawing"):
-            write_text(html, map_page(stations, model, gal=output.gal, surveys=surveys))
-        info("wrote {path}", path=html)
+        write_page(html, lambda: map_page(stations, model, gal=output.gal, surveys=surveys))
 
     def csv() -> CsvTable:
         from seisblock.studies.map.station_row import station_row

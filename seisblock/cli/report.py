@@ -101,8 +101,8 @@ def report(
     """
     from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.progress import progress
+    from seisblock.cli.write_results import write_page
     from seisblock.output.figures.fonts import NO_FONT, drawable_locale
-    from seisblock.output.io.atomic import write_text
     from seisblock.output.json.encode import to_json
     from seisblock.report.html.report import report as page
     from seisblock.report.json.report import document
@@ -136,10 +136,7 @@ def report(
         for message in data.warnings:
             warning(message)
         if output is not None:
-            with progress("drawing"):
-                html = page(data, command=shlex.join(["seisblock", *click.get_current_context().obj]))
-            write_text(output, html)
-            info("wrote {path}", path=output)
+            write_page(output, lambda: page(data, command=shlex.join(["seisblock", *click.get_current_context().obj])))
         if as_json:
             print_result(to_json(document(data)))
         else:

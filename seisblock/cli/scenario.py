@@ -101,8 +101,8 @@ def scenario(
     """
     from seisblock.bodies.table import read_body_list
     from seisblock.cli.progress import progress
-    from seisblock.cli.write_results import figure_of, write_results
-    from seisblock.output.io.atomic import check_distinct_outputs, write_text
+    from seisblock.cli.write_results import figure_of, write_page, write_results
+    from seisblock.output.io.atomic import check_distinct_outputs
     from seisblock.output.io.workbook import check_workbook, write_workbook
     from seisblock.report.json.scenario import document
     from seisblock.report.text import scenario as text_output
@@ -122,10 +122,7 @@ def scenario(
     if html is not None:
         from seisblock.report.html.scenario import scenario_page
 
-        with progress("drawing"):
-            write_text(html, scenario_page(results, motions.label, (*motions.notes, *notes)))
-        info("wrote {path}", path=html)
-
+        write_page(html, lambda: scenario_page(results, motions.label, (*motions.notes, *notes)))
     if xlsx is not None:
         write_workbook(xlsx, *text_output.sheet_rows(results))
         info("wrote {path}", path=xlsx)

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.console import info, print_result, print_tables
+from seisblock.cli.console import print_result, print_tables
 from seisblock.cli.types import OutputFile
 from seisblock.cli.verbosity import quiet_output
 
@@ -32,7 +32,7 @@ def validate(
     amount than documented.
     """
     from seisblock.cli.progress import progress
-    from seisblock.output.io.atomic import write_text
+    from seisblock.cli.write_results import write_page
     from seisblock.report.text import validate as text_output
     from seisblock.validation import cases_of
     from seisblock.validation.case import count_verdicts
@@ -47,10 +47,7 @@ def validate(
         if html is not None:
             from seisblock.report.html.gallery import gallery
 
-            with progress("drawing"):
-                page = gallery(results)
-            write_text(html, page)
-            info("wrote {path}", path=html)
+            write_page(html, lambda: gallery(results))
     if as_json:
         from seisblock.output.json.encode import to_json
         from seisblock.report.json.validate import document

@@ -118,6 +118,16 @@ def write_results(
         print_tables(tables(), details=output.details)
 
 
+def write_page(path: Path, page: Callable[[], str]) -> None:
+    """Draw an HTML page and write it to a file."""
+    from seisblock.output.io.atomic import write_text
+
+    with progress("drawing"):
+        text = page()
+    write_text(path, text)
+    info("wrote {path}", path=path)
+
+
 def _response_figure(responses: Sequence[Response[Any]], *, gal: bool) -> Figure:
     from seisblock.output.figures.solver import response_figure
 
