@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.console import info
-from seisblock.cli.load_records import load_records, selected_motions
+from seisblock.cli.load_records import iter_motions, load_records
 from seisblock.cli.options import Source
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
@@ -43,7 +43,7 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
     from seisblock.records.motion import motion_toward
 
     if not is_azimuth_sweep(source):
-        yield from ((motion, ()) for record in load_records(source) for motion in selected_motions(record, source))
+        yield from ((motion, ()) for motion in iter_motions(source))
         return
     for record in load_records(replace(source, component=())):
         results = solve(record)

@@ -292,7 +292,7 @@ def _assumptions(params: dict[str, Any]) -> Any:
 
 
 def _infer_from_displacement(source: Source, output: OutputOptions, params: dict[str, Any]) -> None:
-    from seisblock.cli.load_records import load_records, selected_motions
+    from seisblock.cli.load_records import iter_motions
     from seisblock.cli.progress import progress
     from seisblock.records._validation import vertical_acts
     from seisblock.report.text import infer as text_output
@@ -305,13 +305,12 @@ def _infer_from_displacement(source: Source, output: OutputOptions, params: dict
     curves: list[tuple[Any, Any]] = []
     motions = []
     # a jump continues beyond the window in which rocking may start
-    for record in load_records(source, keep_whole=params["jumped"] is not None):
-        for motion in selected_motions(record, source):
-            motions.append(motion)
-            displacement = displacement_function(motion)
-            with progress("{name}: factors up to {limit:g}", name=motion.name, limit=params["limit"]) as advance:
-                factors = scale_factors(displacement, observed, motion, limit=params["limit"], steps=params["steps"], progress=advance)
-            curves.append((record, factors))
+    for motion in iter_motions(source, keep_whole=params["jumped"] is not None):
+        motions.append(motion)
+        displacement = displacement_function(motion)
+        with progress("{name}: factors up to {limit:g}", name=motion.name, limit=params["limit"]) as advance:
+            factors = scale_factors(displacement, observed, motion, limit=params["limit"], steps=params["steps"], progress=advance)
+        curves.append((motion.record, factors))
     options = {} if params["slid"] is None else {"vertical": vertical_acts(motions, params["vertical"])}
     answer = document(curves, observed_m=observed, limit=params["limit"], steps=params["steps"], **options)
     write_results(

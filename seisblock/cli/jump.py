@@ -15,7 +15,7 @@ from seisblock.cli.bodies.options import block_option
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
-from seisblock.cli.load_records import load_records, selected_motions
+from seisblock.cli.load_records import iter_motions
 from seisblock.cli.option_checks import given_flags, reject_with, reject_without
 from seisblock.cli.options import Source, check_callback, output_options, record_options
 from seisblock.cli.output import OutputOptions
@@ -107,7 +107,7 @@ def jump(source: Source, output: OutputOptions, repeat: bool, as_printed: bool, 
         raise OutputError("--plot draws one side, drop and restitution: give one of each, or omit --plot")
     first = runs[0]
     info("body: {name}; {says}", name=body_name(first.choice.block.name), says=first.choice.description)
-    motions = [motion for record in load_records(source, keep_whole=True) for motion in selected_motions(record, source)]
+    motions = list(iter_motions(source, keep_whole=True))
     responses = [solve_jump(run.choice.block, motion, **run.options.keywords()) for run in runs for motion in motions]
     printed = [solve_jump(run.choice.block, motion, **run.printed(params).keywords()) for run in runs if as_printed for motion in motions]
     write_results(

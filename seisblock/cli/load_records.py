@@ -147,3 +147,9 @@ def selected_motions(record: Record, source: Source) -> Iterator[Motion]:
     """Yield one motion for each selected horizontal direction."""
     for name in selected_components(record, source):
         yield motion_of(record, name)
+
+
+def iter_motions(source: Source, *, keep_whole: bool = False) -> Iterator[Motion]:
+    """Yield the selected motions of each record of a command, see :func:`load_records`."""
+    for record in load_records(source, keep_whole=keep_whole):
+        yield from selected_motions(record, source)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from seisblock.cli.azimuth_sweep import is_azimuth_sweep
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -20,7 +22,6 @@ from seisblock.cli.types import FLOATS, LENGTH, MUS
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import gettext, lazy_gettext
 from seisblock.models.slide.options import SlideOptions
-from seisblock.records.motion import ALL_AZIMUTHS
 
 if TYPE_CHECKING:
     from seisblock.records import Motion, Record
@@ -119,9 +120,9 @@ def slide(
         "slope_deg": slope,
     }
     fixed = {"slope_length": slope_length, "one_way": one_way, "gravity": gravity}
-    sweeps = [name.lower() for name in source.component] == [ALL_AZIMUTHS]
+    sweeps = is_azimuth_sweep(source)
     is_study = any(values is not None and len(values) > 1 for values in parameters.values())
-    records = load_records(_without_azimuths(source) if sweeps else source)
+    records = load_records(replace(source, component=()) if sweeps else source)
     directions = _sweep_azimuths(full_circle=one_way or any(slope)) if sweeps else None
     if is_study:
         _run_study(records, source, output, directions, parameters, fixed)
@@ -236,10 +237,3 @@ def _motions(record: Record, source: Source, directions: list[str] | None) -> It
 def _sweep_azimuths(*, full_circle: bool) -> list[str]:
     """Return the azimuths of a sweep: half a circle, or the full circle for direction-dependent sliding."""
     return [str(azimuth) for azimuth in range(0, 360 if full_circle else 180, AZIMUTH_STEP)]
-
-
-def _without_azimuths(source: Source) -> Source:
-    """Return the record options with all horizontal components instead of the sweep."""
-    from dataclasses import replace
-
-    return replace(source, component=())

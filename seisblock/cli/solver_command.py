@@ -46,7 +46,7 @@ def _run(solver: Solver) -> Callable[..., None]:
     def run(source: Source, output: OutputOptions, **params: Any) -> None:
         from seisblock.cli.bodies.block import choose_block
         from seisblock.cli.console import info
-        from seisblock.cli.load_records import load_records, selected_motions
+        from seisblock.cli.load_records import iter_motions
         from seisblock.cli.write_results import write_results
         from seisblock.output.json.solver import document
         from seisblock.output.text.solver import tables
@@ -54,11 +54,7 @@ def _run(solver: Solver) -> Callable[..., None]:
         options = solver.make_options({field: params.pop(field) for field in names if field in params})
         choice = choose_block({**params, "restitution": None, "gal": output.gal})
         info("body: {says}", says=choice.description)
-        responses = [
-            solver.solve(choice.block_for_motion(motion), motion, **options.keywords())
-            for record in load_records(source)
-            for motion in selected_motions(record, source)
-        ]
+        responses = [solver.solve(choice.block_for_motion(motion), motion, **options.keywords()) for motion in iter_motions(source)]
         write_results(document(responses), output, responses=responses, tables=lambda: tables(responses, gal=output.gal))
 
     return run

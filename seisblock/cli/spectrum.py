@@ -166,13 +166,13 @@ def spectrum(
 
 def _spectra(source: Source, sizes: Any, alphas: Any, inset: EdgeWear, options: RockOptions) -> Iterator[tuple[Motion, RockingSpectrum]]:
     """Yield the spectrum of each selected motion; in a sweep, with the motion of the largest PGA."""
-    from seisblock.cli.load_records import load_records, selected_motions
+    from seisblock.cli.load_records import iter_motions, load_records
     from seisblock.cli.progress import progress
     from seisblock.records.motion import motion_toward
     from seisblock.studies.rocking.spectrum import rocking_spectrum, rocking_spectrum_all_azimuths
 
     if not is_azimuth_sweep(source):
-        for motion in (motion for record in load_records(source) for motion in selected_motions(record, source)):
+        for motion in iter_motions(source):
             require_vertical(motion, options.vertical)
             with progress("spectrum {name}", name=motion.name) as advance:
                 yield motion, rocking_spectrum(sizes, alphas, motion, inset=inset, progress=advance, options=options)
@@ -190,7 +190,7 @@ def _spectra(source: Source, sizes: Any, alphas: Any, inset: EdgeWear, options: 
 
 def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tuple[float, ...] | None, vertical: bool | None) -> None:
     """Run ``--kind sliding``."""
-    from seisblock.cli.load_records import load_records, selected_motions
+    from seisblock.cli.load_records import iter_motions
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import figure_of, write_results
     from seisblock.records._validation import vertical_acts
@@ -200,7 +200,7 @@ def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tupl
 
     frictions = mu or tuple(round(0.02 * i, 2) for i in range(1, 41))
     curves = []
-    for motion in (motion for record in load_records(source) for motion in selected_motions(record, source)):
+    for motion in iter_motions(source):
         require_vertical(motion, vertical)
         with progress("sliding {name}", name=motion.name) as advance:
             curves.append((motion, slide_study(frictions, motion, vertical=vertical, gravity=gravity, progress=advance)))
@@ -223,7 +223,7 @@ def _run_modes(
     vertical: bool | None,
 ) -> None:
     """Run ``--kind modes``; `grid` holds frictions, diagonals and slendernesses (None: default) and steps."""
-    from seisblock.cli.load_records import load_records, selected_motions
+    from seisblock.cli.load_records import iter_motions
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import figure_of, write_results
     from seisblock.records._validation import vertical_acts
@@ -231,7 +231,7 @@ def _run_modes(
     from seisblock.report.text import mode_map as text_output
     from seisblock.studies.respond.mode_map import mode_map
 
-    all_motions = [motion for record in load_records(source) for motion in selected_motions(record, source)]
+    all_motions = list(iter_motions(source))
     for motion in all_motions:
         require_vertical(motion, vertical)
     axes = _grid_axes(all_motions, grid, gravity, vertical=vertical)

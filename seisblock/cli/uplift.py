@@ -10,7 +10,7 @@ from seisblock.cli.bodies.options import block_option
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
-from seisblock.cli.load_records import load_records, selected_motions
+from seisblock.cli.load_records import iter_motions
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, harmonic_record_options, output_options
 from seisblock.cli.output import OutputOptions
@@ -126,9 +126,7 @@ def uplift(
         body = DEFAULT_BODY
         info("no body given: using the bundled {name}", name=body)
     springs = spring_block(**values) if body is None else load_springs(body, **values)
-    responses = [
-        solve_uplift(springs, motion, gravity=gravity) for record in load_records(source) for motion in selected_motions(record, source)
-    ]
+    responses = [solve_uplift(springs, motion, gravity=gravity) for motion in iter_motions(source)]
     write_results(
         document(responses),
         output,
