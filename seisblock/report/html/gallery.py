@@ -15,34 +15,8 @@ from seisblock.references import REFERENCES
 from seisblock.report.text.validate import KINDS, explanation, format_short, quantity_label, unit_label, verdict_counts_text
 from seisblock.validation.case import EVIDENCE_KINDS, VERDICTS, CaseResult, count_verdicts, count_verdicts_by_kind, sort_by_verdict
 
-_GREEK = dict(
-    zip(
-        [
-            "alpha",
-            "beta",
-            "gamma",
-            "delta",
-            "epsilon",
-            "zeta",
-            "eta",
-            "theta",
-            "kappa",
-            "lambda",
-            "mu",
-            "nu",
-            "xi",
-            "pi",
-            "rho",
-            "sigma",
-            "tau",
-            "phi",
-            "psi",
-            "omega",
-        ],
-        "αβγδεζηθκλμνξπρστφψω",
-        strict=True,
-    )
-)
+_GREEK_NAMES = "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi pi rho sigma tau phi psi omega"
+_GREEK = dict(zip(_GREEK_NAMES.split(), "αβγδεζηθκλμνξπρστφψω", strict=True))
 _LETTER = re.compile(rf"(?<![A-Za-z])({'|'.join(_GREEK)})(?![A-Za-z])")
 _TIMES_PI = re.compile(r"(?<=\d) (?=π)")
 _POWER = re.compile(r"(?<=[\w)\]])\^(-?\d+)(?![\d.])")
