@@ -242,20 +242,17 @@ def object_result(tab: Tab, job: Job) -> str:
     )
 
 
+NO_PROBABILITY: dict[str, Any] = {"probability": None, "text": "", "level": "minor", "rows": (), "models": ()}
+"""Values of the result of an object without samples, in one direction or of one model."""
+
+
 def _respond_values(document: Mapping[str, Any]) -> dict[str, Any]:
     from seisblock.output.text.tables import format_share_interval
     from seisblock.report.text.assessment import headline, name_pile, object_headline
 
     rows = [row["assessment"] for row in document["results"] if "assessment" in row]
     if not rows:
-        return {
-            "probability": None,
-            "text": "",
-            "verdict": gettext("no samples: no probability"),
-            "level": "minor",
-            "rows": [],
-            "models": [],
-        }
+        return NO_PROBABILITY | {"verdict": gettext("no samples: no probability")}
     # several horizontals: the object falls under either of them
     assessed = document.get("object", rows[0])
     text = (object_headline if "object" in document else headline)(_assessment(assessed))
@@ -300,7 +297,7 @@ def _scenario_values(document: Mapping[str, Any], texts: Mapping[str, str]) -> d
 
     row = document["results"][0]
     if row["failure"]:
-        return {"probability": None, "text": "", "verdict": texts["reason"], "level": "minor", "rows": [], "models": []}
+        return NO_PROBABILITY | {"verdict": texts["reason"]}
     share = format_percent(row["overturning_probability"], ".3g")
     verdict = gettext(
         "{verdict} ({share}; 95 % interval {interval})",
@@ -308,14 +305,8 @@ def _scenario_values(document: Mapping[str, Any], texts: Mapping[str, str]) -> d
         share=share,
         interval=format_share_interval(row["interval"]),
     )
-    return {
-        "probability": row["overturning_probability"],
-        "text": share,
-        "verdict": verdict,
-        "level": LEVELS[row["class"]],
-        "rows": [],
-        "models": [],
-    }
+    values = {"probability": row["overturning_probability"], "text": share, "verdict": verdict, "level": LEVELS[row["class"]]}
+    return NO_PROBABILITY | values
 
 
 def python_lines(arguments: tuple[str, ...]) -> str:

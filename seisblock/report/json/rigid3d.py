@@ -37,16 +37,13 @@ RIGID3D = solver_schema(
 
 def document(responses: Sequence[Response[Rigid3dOutcome]], extras: Sequence[Mapping[str, Any]]) -> Document:
     """Return the document of one run per direction of +x, with probability."""
-    worst: dict[int, Assessment] = {}
+    by_record: dict[int, list[Assessment]] = {}
     for response, extra in zip(responses, extras, strict=True):
         if "assessment" in extra:
-            result: Assessment = extra["assessment"].assessment
-            entry = worst.setdefault(id(response.motion.record), result)
-            if (result.overturning_probability, result.moved_probability) > (
-                entry.overturning_probability,
-                entry.moved_probability,
-            ):
-                worst[id(response.motion.record)] = result
-    entries = list(map(assessment_entry, worst.values()))
+            by_record.setdefault(id(response.motion.record), []).append(extra["assessment"].assessment)
+    entries = [
+        assessment_entry(max(group, key=lambda result: (result.overturning_probability, result.moved_probability)))
+        for group in by_record.values()
+    ]
     extra = {"object": entries[0] if len(entries) == 1 else entries} if entries else {}
     return solver_document(responses, RIGID3D, results=list(map(entry_keys, extras)), extra=extra)
