@@ -94,7 +94,7 @@ class Block(DisplayMixin):
     name: str = N_("block")
     inset: float = 0.0
     ranges: ParameterRanges | None = field(default=None, repr=False)
-    stone_count: int = 1
+    stone_count: int = field(default=1, repr=False)
 
     def __post_init__(self) -> None:
         for key, (label, unit) in _POSITIVE_FIELDS.items():

@@ -125,9 +125,9 @@ def check_keys(table: Mapping[str, Any], allowed: Collection[str]) -> None:
         )
 
 
-def quote_value(value: Any) -> str:
+def quote_value(value: Any) -> Message | str:
     """Return a value as shown in a message."""
-    return repr(value)[:MAX_QUOTED_LENGTH]
+    return lazy_gettext("nothing") if value is None else repr(value)[:MAX_QUOTED_LENGTH]
 
 
 def check_kind(table: Mapping[str, Any], kind: str) -> None:

@@ -78,6 +78,12 @@ def test_object_without_unit_above_20_m_is_rejected(run, tmp_path):
     assert run("batch", "--bodies", "objects.csv", "--solver", "rock", "--out", "t.csv")[0] == 0
 
 
+def test_body_file_without_kind_is_named(run, tmp_path):
+    """A file of sizes alone: ``found None`` is a word of Python."""
+    (tmp_path / "body.toml").write_text("width = 0.24\nheight = 0.72\n")
+    assert run("rock", "--block", "body.toml")[1].endswith("found nothing")
+
+
 def test_number_with_comma_is_named(run, tmp_path):
     """Decimal comma or thousands: not told apart; ``,900`` was called an unknown unit."""
     (tmp_path / "objects.csv").write_text('name,width (cm),height (mm),weight (kg)\ncase,60,"1,900",150\ncase,60,1900,"1,200"\n')

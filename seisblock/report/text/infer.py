@@ -174,7 +174,9 @@ def factor_tables(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, 
 
 def _factor_sentence(result: ScaleFactors, displacement_kind: str, *, gal: bool) -> str:
     """Return a sentence on the scale factors that reproduce the observed displacement."""
-    factor_texts = [f"{factor.scale:.3g} ({format_acceleration(factor.pga_m_s2, gal=gal)})" for factor in result.scale_factors]
+    factor_texts = [
+        gettext("{factor:.3g} ({pga})", factor=item.scale, pga=format_acceleration(item.pga_m_s2, gal=gal)) for item in result.scale_factors
+    ]
     size, as_recorded, largest = (
         format_length(length, gal=gal) for length in (result.observed_m, result.displacement_at_1_m, result.largest_displacement_m)
     )
