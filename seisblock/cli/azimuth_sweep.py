@@ -62,16 +62,10 @@ def ranked_sweep(
     """Return a function that solves all azimuths of a record, with samples in each if there are any."""
 
     def solve(record: Record) -> Sequence[Any]:
-        from seisblock.studies.azimuth_probability import rank_by_probability
-        from seisblock.studies.solvers import solver_studies
+        from seisblock.studies.azimuth_probability import solve_azimuths
 
-        directions = solver_studies(solver).directions
-        assert directions is not None
-        results = directions(body, record, options)
-        if not runs or not any(result.moves for result in results):
-            return results
         with progress("azimuths") as advance:
-            return rank_by_probability(solver, body, record, results, options, runs, variation, seed=seed, known=known, progress=advance)
+            return solve_azimuths(solver, body, record, options, runs, priors=variation, seed=seed, known=known, progress=advance)
 
     return solve
 

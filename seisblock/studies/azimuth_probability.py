@@ -22,6 +22,7 @@ from seisblock.studies.parallel import map_threads
 from seisblock.studies.respond.azimuths import RespondAzimuth
 from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.sampling import MOVED_M, ParameterVariation, draw_samples, rigid3d_outcomes, rigid3d_samples, sample
+from seisblock.studies.solvers import solver_studies
 
 AZIMUTH_RUNS = 40
 """Samples of each azimuth, at most."""
@@ -99,6 +100,24 @@ def sample_orientations(
     return AzimuthAverage(samples.probability, samples.completed, classify(samples.probability, samples.moved_probability(moved_m)))
 
 
+def solve_azimuths(solver: str, body: Block | ScannedBody, record: Record, options: Any, runs: int, **sampling: Any) -> Sequence[Any]:
+    """Return the results of a body in all azimuths of a record, the worst first: with samples of a body that moves the most probable one.
+
+    Parameters
+    ----------
+    solver, body, record, options, runs
+        As for :func:`rank_by_probability`; no samples with 0 runs.
+    sampling
+        Its further arguments.
+    """
+    directions = solver_studies(solver).directions
+    assert directions is not None
+    results = directions(body, record, options)
+    if not runs or not any(result.moves for result in results):
+        return results
+    return rank_by_probability(solver, body, record, results, options, runs, **sampling)
+
+
 def rank_by_probability(
     solver: str,
     body: Block | ScannedBody,
@@ -106,7 +125,7 @@ def rank_by_probability(
     directions: Sequence[Azimuth],
     options: Any,
     runs: int,
-    priors: ParameterVariation,
+    priors: ParameterVariation = ParameterVariation(),
     *,
     seed: int = 0,
     known: Sequence[str] = (),

@@ -27,7 +27,6 @@ from seisblock.studies.azimuths import STEP_DEG
 from seisblock.studies.batch.table import REASON, Row
 from seisblock.studies.batch.task import Plan, component_rows
 from seisblock.studies.respond.azimuths import left_out_directions
-from seisblock.studies.sampling import ParameterVariation
 from seisblock.studies.solvers import SolverStudies, solver_studies
 from seisblock.studies.survey.assessment import AssessmentMethod, assess_stones
 from seisblock.studies.survey.overturning_rate import rate_from_stones
@@ -239,7 +238,7 @@ class StationBody(DisplayMixin):
         # near a threshold the single runs of neighbouring azimuths alternate: the worst of many is no worst azimuth
         coarse = [result for result in moving if result.azimuth_deg % RANKED_STEP_DEG == 0.0] or moving
         runs = min(self.runs, RANKED_RUNS)
-        return rank_by_probability(self.solver, self.body, record, coarse, self.options, runs, ParameterVariation(), seed=self.seed)[0]
+        return rank_by_probability(self.solver, self.body, record, coarse, self.options, runs, seed=self.seed)[0]
 
     def _with_assessment(self, result: StationResult, record: Record) -> StationResult:
         """Return a result with the assessment of the object."""
