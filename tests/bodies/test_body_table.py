@@ -28,6 +28,13 @@ def test_body_table_accepts_units_in_headings_or_cells(tmp_path):
     }
 
 
+@pytest.mark.parametrize("heading", ["μ", "\u00b5", "摩擦係数 μ", "Friction coefficient"])
+def test_friction_has_the_symbol_of_the_answers(tmp_path, heading):
+    """``scenario`` ignored the column μ, as the program itself calls it, and assumed 0.2 to 0.7; ``batch`` refused it."""
+    target = read_table(tmp_path, f"name,width (cm),height (cm),{heading}\ncase,45,180,0.3\n")
+    assert target == {"case": {"width": 0.45, "height": 1.8, "mu": 0.3}}
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
 def test_body_table_accepts_japanese(tmp_path, encoding):
     """Names, full-width digits and encodings as spreadsheets in Japan write them."""
