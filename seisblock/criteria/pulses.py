@@ -10,11 +10,15 @@ is one curve. The nonlinear equation has no closed form; its half-sine threshold
 from __future__ import annotations
 
 import math
-from typing import Any
+import operator
 
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
+from seisblock.core.roots import bracketed_root
 from seisblock.core.units import STANDARD_GRAVITY
+
+SERIES_ORDER = 20
+"""Terms of the Taylor series of a block under a half sine."""
 
 
 def half_sine_ratio(w: float) -> float:
@@ -83,24 +87,13 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
     >>> round(slender / (9.8 * 0.001 * half_sine_ratio(math.pi)), 5)
     1.0
     """
-    from scipy.integrate import solve_ivp
-    from scipy.optimize import brentq
-
     alpha, p = checks.positive("the slenderness", slenderness), checks.positive("the frequency parameter", frequency_parameter)
     omega, g = 2 * math.pi * checks.positive("the frequency", frequency), checks.gravity(gravity)
     if alpha >= math.pi / 2:
         raise ParameterError("the slenderness must be below pi/2 rad, found {value}", value=alpha)
 
     def surplus(x: float) -> float:
-        acceleration_ratio = x * math.tan(alpha)
-        # rocking starts where the sine reaches g tan(alpha)
-        start, end = math.asin(1.0 / x) / omega, math.pi / omega
-
-        def rate(t: float, y: Any) -> tuple[float, float]:
-            angle = alpha - y[0]
-            return y[1], p * p * (acceleration_ratio * math.sin(omega * t) * math.cos(angle) - math.sin(angle))
-
-        theta, speed = solve_ivp(rate, (start, end), (0.0, 0.0), method="DOP853", rtol=1e-10, atol=1e-13 * alpha).y[:, -1]
+        theta, speed = _end_of_half_sine(alpha, p, omega, x)
         if theta < 0.0:
             # back on its base: the equation holds for one corner, and its solution runs away to the other side
             return -2 * p * math.sin(alpha / 2)
@@ -115,7 +108,45 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
     high = max(math.hypot(1.0, omega / p), 1.0 + 1e-9)
     while surplus(high) <= 0.0:
         high *= 1.5
-    return float(g * math.tan(alpha) * brentq(surplus, low, high, xtol=1e-12, rtol=1e-11))
+    return g * math.tan(alpha) * bracketed_root(surplus, low, high, 1e-12 * high)
+
+
+def _end_of_half_sine(alpha: float, p: float, omega: float, x: float) -> tuple[float, float]:
+    """Return angle, rad, and angular velocity of a block at the end of a half sine of amplitude x g tan(alpha), by Taylor series.
+
+    Coefficients of theta, sin(alpha - theta) and cos(alpha - theta) by recurrence from theta'' = p^2 (a/g cos(alpha - theta) -
+    sin(alpha - theta)) (derived here).
+    """
+    # rocking starts where the sine reaches g tan(alpha)
+    time, end = math.asin(1.0 / x) / omega, math.pi / omega
+    theta, speed = 0.0, 0.0
+    while time < end:
+        angle, sine, cosine, pulse = [theta, speed], [math.sin(alpha - theta)], [math.cos(alpha - theta)], []
+        amplitude = x * math.tan(alpha)
+        for k in range(SERIES_ORDER - 1):
+            pulse.append(amplitude * math.sin(omega * time + 0.5 * math.pi * k))
+            amplitude *= omega / (k + 1)
+            angle.append(p * p * (_product(pulse, cosine) - sine[k]) / ((k + 1) * (k + 2)))
+            rates = [(j + 1) * angle[j + 1] for j in range(k + 1)]
+            sine_next, cosine_next = -_product(rates, cosine) / (k + 1), _product(rates, sine) / (k + 1)
+            sine.append(sine_next)
+            cosine.append(cosine_next)
+        step = end - time
+        for k in (SERIES_ORDER - 1, SERIES_ORDER):
+            if angle[k]:
+                step = min(step, (1e-16 * alpha / abs(angle[k])) ** (1.0 / k))
+        theta = speed = 0.0
+        for k in range(SERIES_ORDER, -1, -1):
+            speed = speed * step + theta
+            theta = theta * step + angle[k]
+        # a step shorter than the round-off of the time would not end
+        time = end if time + step >= end or time + step == time else time + step
+    return theta, speed
+
+
+def _product(first: list[float], second: list[float]) -> float:
+    """Return the highest coefficient of the product of two series of equal length."""
+    return sum(map(operator.mul, first, reversed(second)))
 
 
 def one_sine_ratio(w: float) -> float:
@@ -179,7 +210,6 @@ def rectangular_ratio(duration: float, frequency_parameter: float) -> float:
 
 def _root(w: float, end: float, sign: float) -> float:
     """Return the root X of sqrt(X^2 - 1) + sign X exp(-(end - asin(1/X))/W) = W (derived here)."""
-    from scipy.optimize import brentq
 
     def surplus(x: float) -> float:
         return math.sqrt(x * x - 1.0) + sign * x * math.exp(-(end - math.asin(1.0 / x)) / w) - w
@@ -189,4 +219,4 @@ def _root(w: float, end: float, sign: float) -> float:
     high = math.hypot(1.0, w)
     while surplus(high) <= 0.0:
         low, high = high, 2.0 * high
-    return float(brentq(surplus, low, high, xtol=1e-14, rtol=1e-14))
+    return bracketed_root(surplus, low, high, 1e-14 * high)

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
 from seisblock.core.errors import ParameterError
+from seisblock.core.roots import bracketed_root
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.criteria.compare import PREFERRED_FREQUENCY, overturning_card, unique_criteria
-from seisblock.criteria.pulses import half_sine_acceleration, half_sine_ratio
+from seisblock.criteria.pulses import _end_of_half_sine, half_sine_acceleration, half_sine_ratio
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
 
@@ -81,3 +82,39 @@ def test_half_sine_that_is_long_for_the_block_overturns_little_above_its_thresho
     parameters = [math.sqrt(1.5 * G / math.hypot(height, height / 3.0)) for height in heights]
     ratios = [half_sine_acceleration(alpha, p, 1.0, G) / (G * math.tan(alpha)) for p in parameters]
     assert ratios == sorted(ratios) and 1.0 < ratios[0] < 1.002 and 1.1 < ratios[-1] < 1.13
+
+
+@pytest.mark.parametrize(
+    ("function", "low", "high", "root"),
+    [
+        (lambda x: math.cos(x) - x, 0.0, 1.0, 0.7390851332151607),
+        (lambda x: x**9, -1.0, 4.0, 0.0),
+        (lambda x: math.tanh(1e6 * (x - 0.3)), 0.0, 1.0, 0.3),
+        (lambda x: math.exp(-50.0 * x) - 1e-9, 0.0, 5.0, 0.18 * math.log(10.0)),
+        (lambda x: 1.0 if x > 1.0 / 3.0 else -1.0, 0.0, 1.0, 1.0 / 3.0),
+        (lambda x: 2.0 - x, 3.0, 2.0, 2.0),
+    ],
+)
+def test_bracketed_root_is_between_a_change_of_sign(function, low, high, root):
+    """Of flat, steep, curved and discontinuous functions, in fewer than twice the evaluations of a bisection."""
+    calls = []
+
+    def counted(x):
+        calls.append(x)
+        return function(x)
+
+    assert bracketed_root(counted, low, high, 1e-13) == pytest.approx(root, abs=1.1e-13)
+    assert len(calls) < 2 * math.log2(5.0 / 1e-13)
+
+
+@given(st.floats(0.05, 1.2), st.floats(0.3, 8.0), st.floats(0.2, 5.0), st.floats(1.01, 10.0))
+@settings(max_examples=30, deadline=None)
+def test_end_of_half_sine_equals_scipy(alpha, p, frequency, x):
+    from scipy.integrate import solve_ivp
+
+    omega, a = 2.0 * math.pi * frequency, x * math.tan(alpha)
+    start, end = math.asin(1.0 / x) / omega, math.pi / omega
+    rate = lambda t, y: (y[1], p * p * (a * math.sin(omega * t) * math.cos(alpha - y[0]) - math.sin(alpha - y[0])))  # noqa: E731
+    expected = solve_ivp(rate, (start, end), (0.0, 0.0), method="DOP853", rtol=1e-12, atol=1e-14 * alpha).y[:, -1]
+    growth = math.exp(p * (end - start))
+    np.testing.assert_allclose(_end_of_half_sine(alpha, p, omega, x), expected, rtol=1e-10, atol=1e-12 * growth)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import eigh
 
 from seisblock.core import checks
 from seisblock.core.errors import BodyError, ParameterError
@@ -66,6 +65,8 @@ def stable_step(pile: PileArrays) -> float:
     The step keeps the eigenvalues of M^-1 (dt^2 K + 2 dt C) below 4 (derived here); spring and dashpot of a point are those of
     [Furukawa2009]_ table 2 or of the stones themselves.
     """
+    from scipy.linalg import eigh
+
     rows, index = contact_jacobian(pile)
     k = pile.constants[index[:, 0]][:, POINT : POINT + 4]
     stiffness = np.einsum("pdi,pd,pdj->ij", rows, k[:, [2, 2, 0]], rows)
