@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from seisblock.core.i18n import format_percent, gettext
 from seisblock.output.figures.log_ticks import round_ticks
 from seisblock.output.figures.style import ACCENT, INPUT, SECOND, StyledFigure, add_legend, label_axes, new_figure, set_panel_title
-from seisblock.report.text.fragility import limit_label
+from seisblock.report.text.fragility import limit_label, measure_label
 from seisblock.studies.fragility.estimate import CLOUD
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy
@@ -45,8 +45,7 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
     title = gettext("{records} records, {motions} motions", records=first.records, motions=first.motions)
     width = 6.4 if columns == 1 else 4.2 * columns
     fig, axes = new_figure(rows, columns=columns, width=width, height=0.8 + 2.9 * rows, title=title, sharex=False, sharey=True)
-    size, unit = study.measure.display_unit(gal=gal)
-    name = f"{gettext(study.measure.label)} ({unit})" if unit else gettext(study.measure.label)
+    size, name = study.measure.display_unit(gal=gal)[0], measure_label(study.measure, gal=gal)
     for index, axis in enumerate(axes):
         if index >= len(bodies):
             axis.set_visible(False)

@@ -13,6 +13,7 @@ from seisblock.core.i18n import gettext
 from seisblock.output.figures.log_ticks import round_ticks
 from seisblock.output.figures.style import ACCENT, INPUT, SECOND, add_figure_legend, add_legend, label_axes, new_figure
 from seisblock.output.text.wrap import display_width
+from seisblock.report.text.fragility import measure_label
 from seisblock.report.text.risk import risk_label
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.io import FragilityCurve
@@ -56,7 +57,7 @@ def figure(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, *, gal:
         Unit of the intensities: gal, kine and cm, else SI.
     """
     measure = intensity_measure(hazard.im)
-    size, unit = measure.display_unit(gal=gal)
+    size = measure.display_unit(gal=gal)[0]
     names = [risk_label(fragility, gal=gal) or gettext("fragility") for fragility, _ in risks]
     outside = sum(display_width(name) + LINE_SAMPLE_COLUMNS for name in names) > MAX_LEGEND_COLUMNS
     name_text = names[0] if len(risks) == 1 else gettext("{count} fragility curves", count=len(risks))
@@ -73,9 +74,7 @@ def figure(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, *, gal:
     density_axes.set_xscale("log")
     label_axes(hazard_axes, y=gettext("exceedance (1/year)"))
     label_axes(middle, y=gettext("probability (1)"))
-    label_axes(
-        density_axes, x=f"{gettext(measure.label)} ({unit})" if unit else gettext(measure.label), y=gettext("rate per decade (1/year)")
-    )
+    label_axes(density_axes, x=measure_label(measure, gal=gal), y=gettext("rate per decade (1/year)"))
     middle.set_ylim(-0.02, 1.02)
     density_axes.set_ylim(bottom=0.0)
     round_ticks(density_axes.xaxis)

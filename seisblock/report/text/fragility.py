@@ -10,6 +10,7 @@ from seisblock.output.text.tables import DASH, details, format_number, format_ra
 from seisblock.output.units_display import length_unit
 from seisblock.studies.fragility.damage_states import SLIP, describe_limit
 from seisblock.studies.fragility.estimate import CLOUD, IDA, STRIPES
+from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy, Interval
 
@@ -99,11 +100,16 @@ def verdict(study: FragilityStudy, curve: Fragility, *, gal: bool) -> str:
     )
 
 
+def measure_label(measure: IntensityMeasure, *, gal: bool) -> str:
+    """Return the name of an intensity measure with its displayed unit."""
+    unit = measure.display_unit(gal=gal)[1]
+    return f"{gettext(measure.label)} ({unit})" if unit else gettext(measure.label)
+
+
 def _curve_table(study: FragilityStudy, *, gal: bool) -> Any:
-    size, unit = study.measure.display_unit(gal=gal)
+    size, name = study.measure.display_unit(gal=gal)[0], measure_label(study.measure, gal=gal)
     bodies = list(dict.fromkeys(curve.body for curve in study.curves))
     has_bodies = len(bodies) > 1
-    name = f"{gettext(study.measure.label)} ({unit})" if unit else gettext(study.measure.label)
     header = [*([gettext("body")] if has_bodies else []), gettext("limit"), name, gettext("beta"), gettext("not monotone"), gettext("fit")]
     rows = [
         [
@@ -178,17 +184,14 @@ def _curve_label(curve: Fragility, *, is_labelled: bool, gal: bool) -> str:
 
 def _measure_table(curve: Fragility, *, is_labelled: bool, gal: bool) -> Any:
     """Return the table of efficiency and sufficiency by intensity measure."""
-    from seisblock.studies.fragility.intensity import intensity_measure
-
     rows = []
     for row_measure in sorted(curve.measures, key=lambda row_measure: row_measure.beta):
         measure = intensity_measure(row_measure.im)
-        size, unit = measure.display_unit(gal=gal)
+        size = measure.display_unit(gal=gal)[0]
         sufficiency = {test.against: f"{test.slope_ratio:+.2f} (p {test.probability:.2g})" for test in row_measure.sufficiency}
-        label = f"{gettext(measure.label)} ({unit})" if unit else gettext(measure.label)
         rows.append(
             [
-                label,
+                measure_label(measure, gal=gal),
                 format_number(row_measure.median / size, 3),
                 f"{row_measure.beta:.2f}",
                 *(sufficiency.get(key, DASH) for key in ("ln(pgv/pga)", "magnitude")),

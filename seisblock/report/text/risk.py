@@ -7,8 +7,8 @@ from typing import Any
 
 from seisblock.core.i18n import N_, format_share, gettext, join_list
 from seisblock.output.text.tables import DASH, format_number, format_range, styled_line, table
-from seisblock.report.text.fragility import limit_label
-from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
+from seisblock.report.text.fragility import limit_label, measure_label
+from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.hazard.curve import Hazard
 from seisblock.studies.hazard.risk import Risk, RiskShare
@@ -60,7 +60,7 @@ def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
     size, _ = measure.display_unit(gal=gal)
     header = [
         gettext("limit state"),
-        _measure_heading(measure, gettext("median"), gal=gal),
+        f"{gettext('median')} {measure_label(measure, gal=gal)}",
         "beta",
         gettext("rate (1/year)"),
         gettext("return period (years)"),
@@ -80,16 +80,10 @@ def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
     return table("", header[start:], [row[start:] for row in rows])
 
 
-def _measure_heading(measure: IntensityMeasure, name: str, *, gal: bool) -> str:
-    unit = measure.display_unit(gal=gal)[1]
-    return f"{name} {gettext(measure.label)} ({unit})" if unit else f"{name} {gettext(measure.label)}"
-
-
 def _disaggregation_table(name: str, risk: Risk, hazard: Hazard, *, gal: bool) -> Any:
     """Return the table of contributions by intensity."""
     measure = intensity_measure(hazard.im)
-    size, unit = measure.display_unit(gal=gal)
-    label = f"{gettext(measure.label)} ({unit})" if unit else gettext(measure.label)
+    size, label = measure.display_unit(gal=gal)[0], measure_label(measure, gal=gal)
     shares = [item for item in risk.disaggregation if item.share >= MIN_SHARE]
     rows = [[interval_text(item, size), f"{item.annual_rate:.3g}", f"{100.0 * item.share:.0f}"] for item in shares]
     return table(name, [label, gettext("rate (1/year)"), "%"], rows, caption=gettext("disaggregation by intensity"))
