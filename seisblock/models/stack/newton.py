@@ -768,9 +768,13 @@ def _law_step(bodies, blocks, work):
 
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX, BLOCK, MATRIX))
 def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, blocks, work):
-    """Solve the contact laws by Newton's method on all of them at once; return the number of steps, or 0 without a solution."""
-    proximity, max_change, last_error, length, iterations = FIRST_PROXIMITY, math.inf, math.inf, 1.0, 0
-    while iterations <= MAX_LAW_ITERATIONS:
+    """Solve the contact laws by Newton's method on all of them at once; return the number of steps, or 0 without a solution.
+
+    Without a solution the impulses are those of the last step, if they obey the laws better than the first ones, else the first ones.
+    """
+    save_state(n, ground, rows, velocities, False)
+    proximity, max_change, first_error, last_error, length, iterations = FIRST_PROXIMITY, math.inf, math.inf, math.inf, 1.0, 0
+    while True:
         law_error, change, error = 0.0, 0.0, 0.0
         for i in range(ground):
             for k in range(6):
@@ -797,10 +801,11 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
                     rows[i, IMPULSE + k] = rows[i, PROJECTED + k]
             return iterations + 1
         if iterations == 0:
-            max_change = MAX_GROWTH * max(change, tolerance)
+            max_change, first_error = MAX_GROWTH * max(change, tolerance), error
         # growing errors, or NaN
         if not change < max_change:
-            return 0
+            last_error = math.inf
+            break
         # the error has grown, as laws that act change to and fro: half of the step is taken back
         if error > MAX_ERROR_RATIO * last_error and length > MIN_LENGTH:
             length *= 0.5
@@ -825,9 +830,11 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
                 u0, u1, u2 = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], row, velocities)
                 _linearise(row, proximity, u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2])
         last_error, length, iterations = error, 1.0, iterations + 1
+        if iterations > MAX_LAW_ITERATIONS:
+            break
         _assemble_laws(n, contact_ids, rows, ground, inertias, blocks, work)
         if not _factorise_laws(ground, blocks, work):
-            return 0
+            break
         _law_step(ground, blocks, work)
         for i in range(n):
             row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
@@ -839,6 +846,8 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
             for k in range(3):
                 row[IMPULSE + k] += row[LAW_STEP + k]
             apply_impulse(a, b, ground, inertias, row, row[LAW_STEP], row[LAW_STEP + 1], row[LAW_STEP + 2], velocities)
+    if not last_error < first_error:
+        save_state(n, ground, rows, velocities, True)
     return 0
 
 
@@ -854,12 +863,10 @@ def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, ve
     blocks, work : (m + 1, m + 1, 36), (m + 1, 28) arrays
         Scratch: blocks of the Hessian, and rows of the bodies.
     """
-    save_state(n, ground, rows, velocities, False)
     _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work)
     iterations = _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, blocks, work)
     if iterations > 0:
         return iterations
-    save_state(n, ground, rows, velocities, True)
     _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work)
     compliance, since_move, has_stalled, max_change = FIRST_COMPLIANCE, 0, False, math.inf
     for iteration in range(MAX_ITERATIONS):
