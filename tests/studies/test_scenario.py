@@ -24,6 +24,7 @@ from seisblock.models.respond.solve import solve_respond
 from seisblock.models.rock.solve import solve_rock
 from seisblock.readers import read
 from seisblock.records import Motion, Preparation, Storey, motion_of, scale, scale_to_jma, synthetic_suite
+from seisblock.report.figures.secure import figure as secure_figure
 from seisblock.report.text.scenario import csv_columns, object_name
 from seisblock.report.text.scenario import tables as scenario_tables
 from seisblock.report.text.secure import MATERIALS, measure_note, verdict
@@ -470,7 +471,10 @@ def test_find_measures_solves_no_restraint_of_a_safe_object(monkeypatch):
     """The demands on a restraint, a third of the time under a long record, are computed for an unsafe object only."""
     monkeypatch.setattr("seisblock.studies.scenario.secure.case_demands", None)
     records, _ = scenario_suite(ScenarioTarget(pga_m_s2=1.0, pgv_m_s=0.1), 10)
-    assert find_measures(SolverBody("box", Block(0.4, 0.6), RespondOptions(mu=0.5)), records, target=0.05).measures[-1].value == 0.0
+    result = find_measures(SolverBody("box", Block(0.4, 0.6), RespondOptions(mu=0.5)), records, target=0.05)
+    assert result.measures[-1].value == 0.0
+    # the axis of the force does not extend to negative ones
+    assert secure_figure(result, "test").axes[-1].get_xlim() == (-0.05, 1.0)
 
 
 def test_find_measures_asks_no_change_of_an_object_that_meets_the_target(monkeypatch):

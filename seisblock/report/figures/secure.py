@@ -42,6 +42,9 @@ def figure(result: Security, label: str) -> Figure:
         )
         if measure.measure == BASE_MASS and measure.value:
             axes.set_xlim(-0.1 * measure.value / size, 3.0 * measure.value / size)
+        elif len(points) == 1:
+            # no restraint required: a force is not negative
+            axes.set_xlim(-0.05, 1.0)
         axes.set_ylim(-3.0, 103.0)
         label_axes(axes, x=name, y=gettext("overturns (%)") if index % COLUMNS == 0 else "")
     for axes in panels[len(result.measures) :]:
