@@ -294,6 +294,7 @@ def _assessment(row: Mapping[str, Any]) -> Any:
 
 def _scenario_values(document: Mapping[str, Any], texts: Mapping[str, str]) -> dict[str, Any]:
     from seisblock.output.text.tables import format_share_interval
+    from seisblock.report.text.assessment import share_text
 
     row = document["results"][0]
     if row["failure"]:
@@ -302,7 +303,7 @@ def _scenario_values(document: Mapping[str, Any], texts: Mapping[str, str]) -> d
     verdict = gettext(
         "{verdict} ({share}; 95 % interval {interval})",
         verdict=gettext(row["class"]),
-        share=share,
+        share=share_text(row["class"], share),
         interval=format_share_interval(row["interval"]),
     )
     values = {"probability": row["overturning_probability"], "text": share, "verdict": verdict, "level": LEVELS[row["class"]]}

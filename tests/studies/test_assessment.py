@@ -53,7 +53,7 @@ def test_classify_changes_at_its_limits(overturning, moved, name):
 def test_object_headline_names_no_direction_where_nothing_moves():
     """The direction of an object at rest is the nearer to overturning, and stands in the document alone."""
     assessment = assess(load_block("gravestone"), read("hanmer_springs_2016"), mu=0.438, runs=50)
-    assert object_headline(assessment) == "object: stays (0 %)"
+    assert object_headline(assessment) == "object: stays (overturning 0 %)"
     assert assessment.direction == "280"
 
 
@@ -127,7 +127,7 @@ def test_headline_of_weak_shaking_prints_no_huge_factor():
     """A closed form gives factors of thousands for an imperceptible motion."""
     assessment = assess(Block(0.3, 0.9), scaled("hanmer_springs_2016", "280", 1e-3), mu=0.6, runs=2)
     assert assessment.least_factor > 100.0
-    assert headline(assessment) == "280: stays (0 %; factor to overturning >10)"
+    assert headline(assessment) == "280: stays (overturning 0 %; factor to overturning >10)"
 
 
 def test_assess_rejects_options_without_effect():

@@ -160,7 +160,7 @@ def test_all_azimuths_headline_states_share_and_worst_azimuth():
     text, _ = azimuths_headline(average, 135.0, 0.6)
     assert text.replace("\xa0", " ") == "all azimuths: may overturn (30 % on average); worst azimuth 135 (60 %)"
     still, _ = azimuths_headline(average_azimuths([azimuth(0.0, None, 0.0), azimuth(90.0, None, 0.0)], 40), 0.0, 0.0)
-    assert still.replace("\xa0", " ") == "all azimuths: stays (0 %)"
+    assert still.replace("\xa0", " ") == "all azimuths: stays (overturning 0 %)"
 
 
 def test_azimuth_sweep_checks_both_sides_of_lopsided_block():

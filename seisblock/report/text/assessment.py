@@ -39,7 +39,8 @@ def headline(assessment: Assessment, name: str = "") -> str:
 
 def verdict_text(assessment: Assessment) -> str:
     """Return class, probability and range of the models without a name."""
-    values = {"verdict": gettext(assessment.class_), "share": format_share(assessment.overturning_probability)}
+    share = share_text(assessment.class_, format_share(assessment.overturning_probability))
+    values = {"verdict": gettext(assessment.class_), "share": share}
     smallest, greatest = assessment.least_factor, assessment.greatest_factor
     if smallest is None or greatest is None:
         return gettext("{verdict} ({share})", **values)
@@ -47,6 +48,17 @@ def verdict_text(assessment: Assessment) -> str:
     if low == high:
         return gettext("{verdict} ({share}; factor to overturning {factor})", **values, factor=low)
     return gettext("{verdict} ({share}; factor to overturning {low}-{high} by model)", **values, low=low, high=high)
+
+
+def share_text(class_: str, share: str) -> str:
+    """Return an overturning probability as it stands behind a class, named behind one that does not speak of overturning.
+
+    Examples
+    --------
+    >>> share_text(LIKELY, "74 %"), share_text(MOVES, "0 %")
+    ('74 %', 'overturning 0 %')
+    """
+    return share if class_ in (LIKELY, MAY) else gettext("overturning {share}", share=share)
 
 
 def factor_text(factor: float) -> str:
@@ -68,7 +80,7 @@ def object_headline(assessment: Assessment, name: str = "") -> str:
         text = N_("{name}: {verdict} ({share})") if still else N_("{name}: {verdict} ({share}); worst direction {direction}")
     else:
         text = N_("object: {verdict} ({share})") if still else N_("object: {verdict} ({share}); worst direction {direction}")
-    share = format_share(assessment.overturning_probability)
+    share = share_text(assessment.class_, format_share(assessment.overturning_probability))
     return gettext(text, name=name, verdict=gettext(assessment.class_), share=share, direction=assessment.direction)
 
 
@@ -90,8 +102,8 @@ def name_pile(text: str, stone_count: int) -> str:
 
     Examples
     --------
-    >>> name_pile("NS: stays (0 %)", 5)
-    '5 stones as one rigid block, NS: stays (0 %)'
+    >>> name_pile("NS: stays (overturning 0 %)", 5)
+    '5 stones as one rigid block, NS: stays (overturning 0 %)'
     """
     return text if stone_count == 1 else gettext("{count} stones as one rigid block, {text}", count=stone_count, text=text)
 
@@ -129,7 +141,8 @@ def azimuths_headline(average: AzimuthAverage, worst_deg: float, worst_probabili
     worst_probability : float
         Overturning probability there.
     """
-    values = {"verdict": gettext(average.class_), "mean": format_share(average.overturning_probability)}
+    mean = share_text(average.class_, format_share(average.overturning_probability))
+    values = {"verdict": gettext(average.class_), "mean": mean}
     if average.overturning_probability == worst_probability == 0.0:
         return gettext("all azimuths: {verdict} ({mean})", **values), STYLES[average.class_]
     text = N_("all azimuths: {verdict} ({mean} on average); worst azimuth {azimuth:g} ({share})")
