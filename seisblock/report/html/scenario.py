@@ -9,6 +9,7 @@ from seisblock.core.i18n import LANGUAGES, N_, format_share, get_locale, gettext
 from seisblock.output.figures.fonts import build_localized
 from seisblock.output.figures.svg import embed_figure
 from seisblock.output.templating import render_page
+from seisblock.output.text.tables import format_share_interval
 from seisblock.report.figures.probability import share_colour
 from seisblock.report.text.scenario import SIDES, advice_text, class_counts, object_name
 from seisblock.studies.scenario.assess import EITHER, ObjectRisk
@@ -60,11 +61,11 @@ def _card(result: ObjectRisk) -> dict[str, Any]:
     """Return the card of one object."""
     if result.class_name is None:
         return {"name": object_name(result), "colour": "", "head": gettext("no result"), "facts": [], "advice": [advice_text(result)]}
-    (low, high), fall_share = result.interval or (0.0, 1.0), result.overturning_probability or 0.0
+    interval, fall_share = result.interval or (0.0, 1.0), result.overturning_probability or 0.0
     facts = [
         (
             gettext("overturns"),
-            gettext("{share} (95 %: {low}-{high})", share=format_share(fall_share), low=format_share(low), high=format_share(high)),
+            gettext("{share} (95 %: {interval})", share=format_share(fall_share), interval=format_share_interval(interval)),
         ),
         (gettext("moves or overturns"), format_share(result.moved_probability or 0.0)),
     ]

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from seisblock.core.i18n import N_, format_share, gettext
+from seisblock.measures.intensity import reported_intensity
 from seisblock.output.text.tables import (
     DASH,
     acceleration_cell,
@@ -129,7 +130,7 @@ def _intensity(estimate: ShakingEstimate) -> str:
     if low is None or high is None:
         return gettext("at most {name}", name=gettext(high)) if high else gettext("at least {name}", name=gettext(low or ""))
     classes = gettext(low) if low == high else gettext("{low} to {high}", low=gettext(low), high=gettext(high))
-    return f"{classes} ({estimate.jma_intensity:.1f})"
+    return classes if estimate.jma_intensity is None else f"{classes} ({reported_intensity(estimate.jma_intensity):.1f})"
 
 
 def estimate_csv(line: Sequence[ShakingEstimate]) -> tuple[list[str], list[list[Any]]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.bodies.body_name import TRANSLATED_NAMES, body_name
+from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import N_, gettext, join_list, join_sentences
 from seisblock.output.text.tables import DASH, Part, format_range, styled_line, table
 from seisblock.studies.scenario.assess import CLASSES, DEPTH, EITHER, WIDTH, ObjectRisk
@@ -31,9 +31,7 @@ def format_percent(share: float | None) -> str:
 
 def object_name(result: ObjectRisk) -> str:
     """Return the name of an object in the language of the locale."""
-    # bundled bodies are named by their file, their translations by their name
-    file_name = result.body.replace("_", " ")
-    return gettext(body_name(file_name if file_name in TRANSLATED_NAMES else result.body))
+    return gettext(body_name(result.body))
 
 
 def advice_text(result: ObjectRisk) -> str:

@@ -38,13 +38,18 @@ def measure_value(measure: Measure) -> str:
     if measure.unit == "kg":
         return f"{measure.value:.0f} kg"
     if measure.measure == BASE_MASS:
-        return gettext("{value} times its mass", value=format_number(measure.value, 3))
+        return gettext("{value} times its mass", value=_multiple(measure.value))
     return _force(measure.value, measure.unit)
 
 
 def _force(value: float, unit: str) -> str:
     """Return a force with its unit, or as a multiple of the weight."""
-    return f"{value:.0f} N" if unit == "N" else gettext("{value} times its weight", value=format_number(value, 3))
+    return f"{value:.0f} N" if unit == "N" else gettext("{value} times its weight", value=_multiple(value))
+
+
+def _multiple(value: float | None) -> str:
+    """Return a multiple to three digits, zero without decimals."""
+    return format_number(value, 3) if value else "0"
 
 
 def measure_note(measure: Measure) -> str:
@@ -53,9 +58,7 @@ def measure_note(measure: Measure) -> str:
         return gettext(with_reason(measure).reason or "")
     if measure.measure == RESTRAINT and measure.value > 0.0:
         moment = (
-            f"{measure.moment:.0f} N m"
-            if measure.unit == "N"
-            else gettext("{value} m times its weight", value=format_number(measure.moment, 3))
+            f"{measure.moment:.0f} N m" if measure.unit == "N" else gettext("{value} m times its weight", value=_multiple(measure.moment))
         )
         notes = [gettext("at {height:.2f} m; moment at the edge {moment}", height=measure.height_m, moment=moment)]
         if measure.foot_slip_probability and measure.foot_force is not None:

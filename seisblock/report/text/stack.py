@@ -9,7 +9,7 @@ from rich.text import Text
 
 from seisblock.bodies.pile.edge_wear import worn_share
 from seisblock.bodies.pile.pile import Pile
-from seisblock.core.i18n import Message, format_share, gettext, lazy_gettext
+from seisblock.core.i18n import N_, Message, format_share, gettext, lazy_gettext
 from seisblock.core.results import Response
 from seisblock.models.stack.describe import StackResponses, base_text, describe, stone_table
 from seisblock.models.stack.outcome import StackOutcome
@@ -71,11 +71,11 @@ def _version_tables(probability: PileProbability, pile: Pile, *, gal: bool) -> I
     """Yield the share of samples in which each stone falls and moves, and the varied parameters."""
     columns = [gettext("stone"), gettext("falls (%)"), gettext("95 % interval"), gettext("falls to (deg)"), gettext("moves (%)")]
     length = format_length(probability.moved_m, gal=gal)
-    yield table(
-        gettext("{runs} samples; moves: residual displacement above {far}, or falls", runs=probability.runs, far=length),
-        columns,
-        map(_chance_row, reversed(probability.stones)),
-    )
+    rows = [_chance_row(chance) for chance in reversed(probability.stones)]
+    title = N_("{runs} samples; moves: residual displacement above {far}, or falls")
+    if any(row[3] == DASH and chance.overturned > 0.0 for row, chance in zip(rows, reversed(probability.stones), strict=True)):
+        title = N_('{runs} samples; moves: residual displacement above {far}, or falls; "-": falls in scattered directions')
+    yield table(gettext(title, runs=probability.runs, far=length), columns, rows)
     yield styled_line(variation_text(probability, pile), "dim")
 
 
