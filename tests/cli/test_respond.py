@@ -55,7 +55,7 @@ def test_respond_document_has_contract_keys():
 def test_respond_prints_outcome_then_probability():
     """Class and probability, the single run, the interval of the share, then the table."""
     lines = run("elcentro_1940_ns", *CABINET[:4], "--mu", "0.1", "--runs", "20", "--quiet").stdout.splitlines()
-    assert re.match(r"NS: moves \(0 %; factor to overturning \d\.\d\d-\d\.\d\d by model\)$", lines[0])
+    assert re.match(r"NS: moves \(overturning 0 %; factor to overturning \d\.\d\d-\d\.\d\d by model\)$", lines[0])
     assert lines[1].startswith("NS: slides ") and "no rocking" in lines[1] + lines[2]
     assert any("20 samples" in line for line in lines[2:5])
 

@@ -224,5 +224,5 @@ def test_component_paths_together_give_one_record(tmp_path):
     record = read([tmp_path / "ew.csv", tmp_path / "ns.csv"])
     assert record.codes == ("NS", "EW")
     assert record.sha256 == hashlib.sha256((tmp_path / "ew.csv").read_bytes() + (tmp_path / "ns.csv").read_bytes()).hexdigest()
-    with pytest.raises(RecordError, match="to distinguish them"):
+    with pytest.raises(RecordError, match="without station and time"):
         read([tmp_path / "ns.csv", tmp_path / "ns.csv"])

@@ -76,7 +76,7 @@ def figure(
     chances = list(probabilities) or [None] * len(responses)
     for panels, name, response, chance, span in zip(columns, panel_labels(motions), responses, chances, spans, strict=True):
         # a fallen rock rolls on: its twist of thousands of degrees would set the scale
-        shown = slice(*np.searchsorted(response.time, span))
+        shown = (response.time >= span[0]) & (response.time <= span[1])
         time = response.time[shown]
         solid = convex_body(response.body)
         sizes = object_label(*np.ptp(solid.points, axis=0).tolist(), friction=response.options.mu, probability=chance, gal=gal)
