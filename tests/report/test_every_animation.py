@@ -348,13 +348,13 @@ def test_animation_ends_seconds_after_last_fall():
         place = np.stack([solution[f"{name}_{axis}"] for name in solution.body.names for axis in "xy"])
         return np.abs(place[:, -1] - place[:, solution.time < after][:, -1]).max() > 1.0
 
-    # a collapse is chaotic: in some of them the drums stop each other
+    # a collapse is chaotic: in some of them a drum stays up, or the drums stop each other
     record = crop(read("synthetic_jma.csv"), 24.0, 36.0)
     for factor in (1.2, 1.25, 1.3, 1.35):
         solution = solve_stack(load_pile("column"), motion_of(scale(record, factor), "NS"))
-        last = max(stone.fell_at_s for stone in solution.outcome.stones if stone.fell_at_s is not None)
-        assert last < stack.motion_interval(solution, margin=1.5)[1] <= last + 3.5
-        if roll(solution, last + 5.0):
+        falls = [stone.fell_at_s for stone in solution.outcome.stones]
+        if None not in falls and roll(solution, max(falls) + 5.0):
+            assert max(falls) < stack.motion_interval(solution, margin=1.5)[1] <= max(falls) + 3.5
             return
     pytest.fail("no drum rolls")
 
