@@ -104,7 +104,8 @@ def test_loops_over_a_range_have_the_values_of_python(start, stop, step):
         for i in range(start, stop, step):
             seen[n] = i
             n += 1
-        for i in range(start):
+        steps = range(start) if step > 0 else range(start, 0, -1)
+        for i in steps:
             seen[n] = -i
             n += 1
         return n
@@ -113,5 +114,5 @@ def test_loops_over_a_range_have_the_values_of_python(start, stop, step):
     n = walk(start, stop, step, seen)
     for i in range(start, stop):
         expected += [10 * i + j for j in range(min(i, 3)) if i != 1]
-    expected += [*range(start, stop, step), *(-i for i in range(start))]
+    expected += [*range(start, stop, step), *(-i for i in (range(start) if step > 0 else range(start, 0, -1)))]
     assert seen[:n].tolist() == expected

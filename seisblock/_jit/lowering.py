@@ -6,6 +6,7 @@ from typing import Any
 
 from numba.core import cgutils, ir
 from numba.core import types as numba_types
+from numba.core.ir_utils import get_definition, guard
 from numba.core.lowering import Lower
 from numba.cpython.slicing import fix_index
 
@@ -58,7 +59,8 @@ class KernelLower(Lower):  # type: ignore[misc]
         kind = self.typeof(expr.value.name) if operation in ("static_getitem", "getiter", "iternext", "pair_first", "pair_second") else None
         if isinstance(kind, types.Array):
             return self.lower_getitem(resty, expr, expr.value, expr.index_var, self.fndesc.calltypes[expr])
-        if isinstance(kind, types.RangeType) and len(self.func_ir.get_definition(expr.value).args) < 3:
+        definition = guard(get_definition, self.func_ir, expr.value) if isinstance(kind, types.RangeType) else None
+        if isinstance(definition, ir.Expr) and len(definition.args) < 3:
             start, stop = (self._extract(kind, self.loadvar(expr.value.name), name) for name in ("start", "stop"))
             zero, steps = start.type(0), builder.sub(stop, start)
             steps = builder.select(builder.icmp_signed(">", steps, zero), steps, zero)
