@@ -11,6 +11,7 @@ from pathlib import Path
 import numba
 import numpy as np
 import pytest
+from numba.core.base import BaseContext
 from numba.core.types import functions
 from numba.core.typing.typeof import typeof
 
@@ -134,6 +135,20 @@ def test_fast_compilation_restores_numba():
         assert _t.Function.get_call_type is not method
         raise ValueError("inside")
     assert _t.Function.get_call_type is method
+
+
+def test_compilation_looks_for_extensions_once_per_function(chain, monkeypatch):
+    """Numba would do so at each element of an array."""
+    refreshes = []
+    original = BaseContext.refresh
+    monkeypatch.setattr(BaseContext, "refresh", lambda self: (refreshes.append(1), original(self))[1])
+
+    @_jit.kernel(_t.float64(_t.Array(_t.float64, 1, "C")))
+    def total(a):
+        return a[0] + a[1] + a[2] + a[3]
+
+    assert total(np.arange(4.0)) == 6.0
+    assert len(refreshes) <= 4
 
 
 def test_variable_of_a_kernel_may_be_assigned_two_global_numbers(chain):

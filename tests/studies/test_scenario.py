@@ -458,11 +458,12 @@ def test_find_measures_says_what_does_not_reach_the_target(security):
         assert "目標" in measure_note(replace(inset, reason="in English"))
 
 
-def test_find_measures_solves_no_restraint_of_a_safe_object(monkeypatch):
+@pytest.mark.parametrize("mass", [80.0, pytest.param(None, marks=pytest.mark.slow)])
+def test_find_measures_solves_no_restraint_of_a_safe_object(mass, monkeypatch):
     """It needs no force, as it needs no ballast; the demands on a restraint, a third of the time, are computed for unsafe ones only."""
     monkeypatch.setattr("seisblock.studies.scenario.secure.case_demands", None)
     records, _ = scenario_suite(ScenarioTarget(pga_m_s2=1.0, pgv_m_s=0.1), 10)
-    result = find_measures(SolverBody("box", Block(0.4, 0.6, mass=80.0), RespondOptions(mu=0.5)), records, target=0.05)
+    result = find_measures(SolverBody("box", Block(0.4, 0.6, mass=mass), RespondOptions(mu=0.5)), records, target=0.05)
     values = {measure.measure: measure.value for measure in result.measures}
     assert result.overturning_probability == values[BASE_MASS] == values[RESTRAINT] == 0.0
     assert measure_note(result.measures[-1]) == "" and {share for _, share in result.measures[-1].curve} == {0.0}

@@ -76,19 +76,19 @@ def figure(
     chances = list(probabilities) or [None] * len(responses)
     for panels, name, response, chance, span in zip(columns, panel_labels(motions), responses, chances, spans, strict=True):
         # a fallen rock rolls on: its twist of thousands of degrees would set the scale
-        shown = (response.time >= span[0]) & (response.time <= span[1])
-        time = response.time[shown]
+        in_view = (response.time >= span[0]) & (response.time <= span[1])
+        time = response.time[in_view]
         solid = convex_body(response.body)
         sizes = object_label(*np.ptp(solid.points, axis=0).tolist(), friction=response.options.mu, probability=chance, gal=gal)
         _draw_ground(panels[0], f"{name}  {gettext(solid.name)} {sizes}\n{gettext(verdict(response, gal=gal))}", response, gal=gal)
         for channel, colour, dashes in (("x", style.ACCENT, "-"), ("y", style.SECOND, (0, (5, 1.5)))):
-            shift = (response[channel][shown] - response[channel][0]) / disp_unit.size
+            shift = (response[channel][in_view] - response[channel][0]) / disp_unit.size
             draw_curve(panels[1], time, shift, color=colour, label=channel, linestyle=dashes, linewidth=1.1)
         style.label_axes(panels[1], y=gettext("displacement ({unit})", unit=disp_unit.name))
         style.add_legend(panels[1])
-        draw_curve(panels[2], time, np.degrees(response["tilt"][shown]), color=style.ACCENT, linewidth=1.1)
+        draw_curve(panels[2], time, np.degrees(response["tilt"][in_view]), color=style.ACCENT, linewidth=1.1)
         style.label_axes(panels[2], y=gettext("tilt (deg)"))
-        draw_curve(panels[3], time, twist_history(response)[shown], color=style.ACCENT, linewidth=1.1)
+        draw_curve(panels[3], time, twist_history(response)[in_view], color=style.ACCENT, linewidth=1.1)
         style.label_axes(panels[3], y=gettext("twist (deg)"))
     return fig
 

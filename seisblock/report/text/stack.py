@@ -71,25 +71,30 @@ def _version_tables(probability: PileProbability, pile: Pile, *, gal: bool) -> I
     """Yield the share of samples in which each stone falls and moves, and the varied parameters."""
     columns = [gettext("stone"), gettext("falls (%)"), gettext("95 % interval"), gettext("falls to (deg)"), gettext("moves (%)")]
     length = format_length(probability.moved_m, gal=gal)
-    rows = [_chance_row(chance) for chance in reversed(probability.stones)]
     title = N_("{runs} samples; moves: residual displacement above {far}, or falls")
-    if any(row[3] == DASH and chance.overturned > 0.0 for row, chance in zip(rows, reversed(probability.stones), strict=True)):
+    if any(chance.overturned > 0.0 and _mean_direction(chance) is None for chance in probability.stones):
         title = N_('{runs} samples; moves: residual displacement above {far}, or falls; "-": falls in scattered directions')
-    yield table(gettext(title, runs=probability.runs, far=length), columns, rows)
+    yield table(gettext(title, runs=probability.runs, far=length), columns, map(_chance_row, reversed(probability.stones)))
     yield styled_line(variation_text(probability, pile), "dim")
 
 
+def _mean_direction(chance: StoneProbability) -> float | None:
+    """Return the mean fall direction of a stone, degrees, from +x if north is unknown; None for scattered directions."""
+    if chance.fell_alike_ratio is None or chance.fell_alike_ratio < MIN_CONCENTRATION:
+        return None
+    return chance.fell_towards_deg if chance.fell_azimuth_deg is None else chance.fell_azimuth_deg
+
+
 def _chance_row(chance: StoneProbability) -> list[str]:
-    """Return the row of one stone; fall direction from +x if north is unknown, a dash for scattered directions."""
-    mean = chance.fell_towards_deg if chance.fell_azimuth_deg is None else chance.fell_azimuth_deg
-    has_direction = mean is not None and chance.fell_alike_ratio is not None and chance.fell_alike_ratio >= MIN_CONCENTRATION
+    """Return the row of one stone."""
+    mean = _mean_direction(chance)
     low, high = (format_fixed(100.0 * end, 0) for end in chance.interval)
     share, moved_share = format_fixed(100.0 * chance.overturned, 1), format_fixed(100.0 * chance.moved, 1)
     return [
         gettext(chance.name),
         share,
         format_range(low, high),
-        format_fixed(round(mean) % 360, 0) if has_direction and mean is not None else DASH,
+        DASH if mean is None else format_fixed(round(mean) % 360, 0),
         moved_share,
     ]
 
