@@ -13,11 +13,12 @@ from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate
 from seisblock.dynamics.hybrid import no_skip
 from seisblock.models.uplift.batch import uplift_many
-from seisblock.models.uplift.constants import ALL_CORNERS, GLUED, F, W, X
+from seisblock.models.uplift.constants import ALL_CORNERS, GLUED, TURN_X, TURN_Y, F, W, X
 from seisblock.models.uplift.harmonic import uplift_thresholds
 from seisblock.models.uplift.minima import uplift_minima
 from seisblock.models.uplift.model import UPLIFT, contact_name, parameters, rotations, static_state
 from seisblock.models.uplift.modes import natural_modes
+from seisblock.models.uplift.propagator import propagate
 from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion, motion_of
 from seisblock.records.record import Component, Record
@@ -351,3 +352,18 @@ def test_propagation_from_sample_to_sample_equals_the_series(seed):
         np.testing.assert_allclose(fast.extrema[rows, columns], slow.extrema[rows, columns], rtol=1e-7, atol=1e-10)
         lifted += slow.n_events > 0
     assert lifted >= 5
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_motion_along_one_axis_is_propagated_after_a_lift(axis):
+    """A rotation that stays exactly zero does not send the samples of a flight to the power series, which takes ten times as long."""
+    p, y = parameters([SLENDER], G, 0.01)[0], static_state(SLENDER, G)
+    # in the air, moving in the plane of one axis
+    y[:4] = 0.1 + np.array([[-0.01, -0.01, 0.01, 0.01], [0.01, -0.01, 0.01, -0.01], [0.0] * 4])[axis]
+    y[F : F + 4] = 0.0
+    y[TURN_X], y[TURN_Y] = np.array([[0.0, -0.02], [0.02, 0.0], [0.0, 0.0]])[axis]
+    extrema = np.zeros((10, 4))
+    extrema[:, 0], extrema[:, 2] = np.where(y[:10] == 0.0, 0.0, [[1.0], [-1.0]])
+    ground = np.zeros((3, 2))
+    ground[axis] = 1.0, 1.5
+    assert propagate(0, ground, np.ones(3), 0, p, y, extrema, np.zeros((20, 21)), 0.0) == 1

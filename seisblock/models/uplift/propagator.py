@@ -187,13 +187,14 @@ def propagate(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
                 passes &= _is_inside(extrema, F + i, -(kz * u0 + cz * w0), -(kz * u1 + cz * w1), bow * (kz * second + cz * third))
             else:
                 passes &= min(u0, u1) - excess > 0.0
-        third = jerk / np.sqrt(jy)
+        # a rotation that does not move at all, as under shaking along one axis, has no bow
+        third = jerk / np.sqrt(jy) if b2 != 0.0 or b3 != 0.0 or b4 != 0.0 else 0.0
         passes &= (
             mode == GLUED
             or (b0_rate * b1_rate > 0.0 and min(abs(b0_rate), abs(b1_rate)) > bow * third)
             or _is_inside(extrema, TURN_Y, b0, b1, bow * (max(abs(b2), abs(b4)) + 0.5 * h * third))
         )
-        third = jerk / np.sqrt(jx)
+        third = jerk / np.sqrt(jx) if a2 != 0.0 or a3 != 0.0 or a4 != 0.0 else 0.0
         passes &= (
             mode == GLUED
             or (a0_rate * a1_rate > 0.0 and min(abs(a0_rate), abs(a1_rate)) > bow * third)
