@@ -370,6 +370,19 @@ def test_uplifted_corner_is_marked():
         np.testing.assert_allclose(spring.top[:, 2] - spring.free, factor * rise, atol=1e-12)
 
 
+def test_springs_move_with_the_ground():
+    """The drawn springs kept their ends at a fixed height while the ground moved up and down, apart from their corners."""
+    animation = film("uplift", 60)
+    stage = build_figure(animation)
+    heights, ground = [], animation.scene.ground_displacement
+    assert np.ptp(ground[:, 2]) > 0.005
+    for index, time in enumerate(animation.time):
+        stage.actors[0].place(index, time)
+        heights.append([np.ptp(coil[:, 1]) for coil in stage.actors[0].springs.get_segments()])
+    expected = [np.minimum(spring.top[:, 2], spring.free) * view_axes()[1][2] for spring in animation.scene.springs]
+    np.testing.assert_allclose(heights, np.transpose(expected), atol=1e-9)
+
+
 def test_uplift_tilt_agrees_with_corner_heights():
     """The turn of the cuboid and the heights of its corners, found independently, agree to the curvature of the turn."""
     animation = film("uplift", 100)

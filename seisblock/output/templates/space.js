@@ -74,7 +74,7 @@ function faces(scene, vector, ground, ahead) {
 }
 
 function coil(pen, put, foot, height, free) {
-  const [x, low] = put(foot), [, high] = put([foot[0], foot[1], height]), turns = 2 * COILS + 1;
+  const [x, low] = put(foot), [, high] = put([foot[0], foot[1], foot[2] + height]), turns = 2 * COILS + 1;
   pen.strokeStyle = SOFT; pen.lineWidth = 1; pen.beginPath(); pen.moveTo(x, low);
   for (let i = 1; i < turns; i++) pen.lineTo(x + (i % 2 ? 0.5 : -0.5) * WIDE * free, low + (high - low) * i / turns);
   pen.lineTo(x, high); pen.stroke();
