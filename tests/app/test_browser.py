@@ -316,6 +316,24 @@ def test_page_fits_its_window(browser, address, width):
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
+def test_figure_of_two_directions_scrolls_on_a_phone_at_the_size_of_one(browser, address):
+    """A figure of 2560 pixels was shrunk to 364, its letters to 3 pixels."""
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 900, "deviceScaleFactor": 2, "mobile": True})
+    try:
+        browser.get(address)
+        Select(find(browser, "sample-select")).select_by_value("synthetic_knet.EW")
+        find(browser, "record-summary")
+        fill(browser, width="45", height="180", mu="0.3")
+        find(browser, "run").click()
+        figure = find(browser, "figure")
+        browser.execute_async_script("arguments[0].decode().then(arguments[1])", figure)
+        shown = browser.execute_script("return arguments[0].closest('figure').scrollWidth", figure)
+        assert figure.get_property("naturalWidth") == 2560 and 2 * 340 < shown < 2 * 390
+        assert browser.execute_script("return document.documentElement.scrollWidth") <= 390
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
 def test_screenshots_of_the_guide_are_small_and_drawn_by_their_script(tmp_path):
     script = Path(__file__).parents[2] / "docs" / "figures" / "app.py"
     subprocess.run([sys.executable, str(script), str(tmp_path)], check=True)
