@@ -260,6 +260,10 @@ class Block(DisplayMixin):
         """Return the block without the ranges of the given parameters, whose values are known."""
         return self if self.ranges is None else replace(self, ranges=self.ranges.without(*names))
 
+    def with_friction_range(self, limits: tuple[float, float]) -> Block:
+        """Return the block with a range from which samples draw the friction."""
+        return replace(self, ranges=replace(self.ranges or ParameterRanges(), mu=limits))
+
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the ground acceleration at which rocking starts, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
         return gravity * min(self.arms) / self.centre

@@ -39,7 +39,11 @@ def rigid_body_from_spec(spec: BodySpec) -> Block | ScannedBody:
         except BodyError as error:
             raise BodyError("{source}: {why}", source=spec.source, why=error.message) from error
     inset = values.get("inset")
-    return body.with_wear(inset) if isinstance(inset, EdgeWear) else body
+    if isinstance(inset, EdgeWear):
+        body = body.with_wear(inset)
+    if isinstance(body, Block) and ("mu" in values or "surface" in values):
+        return body.with_friction_range(values["mu_range"]) if "mu_range" in values else body.without_ranges("mu")
+    return body
 
 
 def friction_from_spec(spec: BodySpec, options: Mapping[str, Any]) -> dict[str, float | None]:

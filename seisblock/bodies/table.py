@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -13,6 +14,7 @@ from seisblock.bodies.body_name import body_name
 from seisblock.bodies.edge_wear import parse_edge_wear
 from seisblock.bodies.kinds import KINDS, normalize_kind
 from seisblock.bodies.toml import bundled_bodies, pile_note, read_body_toml
+from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, SeisblockError
@@ -71,6 +73,9 @@ POSITIVE_COLUMNS = (
 )
 SIGNED_COLUMNS = ("centroid_offset", "slope_deg", "azimuth_deg")
 """Columns that may be negative; all others are zero or more."""
+
+_RANGE = re.compile(r"([0-9.]+) ?(?:[-~\u2010-\u2015\u301c\u2212]|to|から) ?([0-9.]+)")
+"""Range of friction in a cell: 0.5-0.7, 0.5~0.7."""
 
 _IDENTIFIERS = ("番号", "墓石番号", "整理番号", "管理番号", "資料番号", "登録番号", "収蔵番号", "備品番号", "no", "no.", "id")
 """Headings of a number that names a body where there is no name."""
@@ -164,14 +169,14 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
     """Return the bodies of tables, body files and bundled names.
 
     A table (.csv, .xlsx) has a header that names its columns in English or Japanese: ``name``; ``width``, ``height``, ``depth``,
-    ``centroid_height``, ``centroid_offset``, ``slope_length``, ``tenon``, ``drop`` (m, or with a unit in the heading, ``width (cm)``, or
-    in the cell, ``24cm``); ``mass`` (kg, or with a unit); ``inset`` (a length, or a share per side); ``mu``, ``mu_kinetic``, ``kappa``,
-    ``surface``, ``restitution``, ``rocking_restitution``, ``slope_deg``, ``frequency_vertical`` (Hz), ``beta``, ``damping``, ``density``,
-    ``centroid_inertia``; ``kind`` (gravestone, furniture, statue or block) beside sizes; and ``body``, a file or a bundled body whose
-    description the row uses, with ``side`` short or long. Empty cells are ignored. A table with a column of a survey (``fallen``,
-    ``reinforced``, ``height_over_width``, ``count``, ``azimuth_deg``) lists gravestones, as in
-    :func:`~seisblock.bodies.cemetery.table.read_cemetery`: their kind is gravestone, a row with a count is that many bodies, names are
-    optional, and other columns are ignored. Any other name is a file that describes one body, or a bundled body.
+    ``centroid_height``, ``centroid_offset``, ``slope_length``, ``tenon``, ``drop`` (m, or with a unit in the heading, ``width (cm)``, or in
+    the cell, ``24cm``); ``mass`` (kg, or with a unit); ``inset`` (a length, or a share per side); ``mu`` (a number, or a range from which
+    samples are drawn, ``0.5-0.7``), ``mu_kinetic``, ``kappa``, ``surface``, ``restitution``, ``rocking_restitution``, ``slope_deg``,
+    ``frequency_vertical`` (Hz), ``beta``, ``damping``, ``density``, ``centroid_inertia``; ``kind`` (gravestone, furniture, statue or block)
+    beside sizes; and ``body``, a file or a bundled body whose description the row uses, with ``side`` short or long. Empty cells are
+    ignored. A table with a column of a survey (``fallen``, ``reinforced``, ``height_over_width``, ``count``, ``azimuth_deg``) lists
+    gravestones, as in :func:`~seisblock.bodies.cemetery.table.read_cemetery`: their kind is gravestone, a row with a count is that many
+    bodies, names are optional, and other columns are ignored. Any other name is a file that describes one body, or a bundled body.
 
     Parameters
     ----------
@@ -336,6 +341,8 @@ def parse_table(sheet: Sheet, *, stones: bool | None = None, is_list: bool = Fal
             for key, cell in cells.items()
             if key and cell and (value := _parse_value(key, cell, units.get(key, ""), stone=lists_stones)) is not None
         }
+        if isinstance(limits := values.get("mu"), tuple):
+            values |= {"mu": 0.5 * sum(limits), "mu_range": limits}
         count = int(values.pop("count", 1))
         name = values.pop("name", "")
         if lists_stones:
@@ -462,6 +469,8 @@ def _parse_value(key: str, cell: str, unit: str, *, stone: bool) -> Any:
             remedy = lazy_gettext(text, key=key) if unitless else ""
             raise BodyError("{key} of {value:g} m is not plausible{remedy}", key=key, value=value, remedy=remedy)
         return value
+    if key == "mu" and (ends := _RANGE.fullmatch(cell)):
+        return ParameterRanges(mu=(parse_number_cell(ends[1], key), parse_number_cell(ends[2], key))).mu
     return _check_range(key, parse_number_cell(cell, key))
 
 

@@ -9,6 +9,7 @@ from seisblock.bodies.table import read_bodies
 from seisblock.core.errors import BodyError
 from seisblock.core.registry import get_solver
 from seisblock.core.units import SUN
+from seisblock.studies.batch.task import build_solver_bodies
 from seisblock.studies.report.models import body_models
 
 
@@ -33,6 +34,22 @@ def test_friction_has_the_symbol_of_the_answers(tmp_path, heading):
     """``scenario`` ignored the column μ, as the program itself calls it, and assumed 0.2 to 0.7; ``batch`` refused it."""
     target = read_table(tmp_path, f"name,width (cm),height (cm),{heading}\ncase,45,180,0.3\n")
     assert target == {"case": {"width": 0.45, "height": 1.8, "mu": 0.3}}
+
+
+@pytest.mark.parametrize("cell", ["0.5-0.7", "0.5 \u2013 0.7", "０．５～０．７", "0.5\u301c0.7", "0.5 to 0.7", "0.5から0.7"])
+def test_friction_may_be_a_range(tmp_path, cell):
+    """A range was refused, also by commands that do not use it; samples are drawn from it, around its middle."""
+    (tmp_path / "t.csv").write_text(f"name,width (cm),height (cm),mu\ncase,45,180,{cell}\n", encoding="utf-8")
+    specs = read_bodies(tmp_path / "t.csv")
+    for solver in ("respond", "rigid3d"):
+        (body,) = build_solver_bodies(get_solver(solver), specs, {})
+        assert body.options.mu == pytest.approx(0.6) and body.body.ranges.mu == (0.5, 0.7)
+    assert get_solver("slide").ignored_columns(specs[0].parameters) == ["width", "height", "mu_range"]
+
+
+def test_reversed_range_of_friction_is_an_error(tmp_path):
+    with pytest.raises(BodyError, match=r"the range of mu runs from 0\.7 to 0\.5"):
+        read_table(tmp_path, "name,width (cm),height (cm),mu\ncase,45,180,0.7-0.5\n")
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])

@@ -21,8 +21,6 @@ OWN_COLUMNS = ("restitution", "rocking_restitution", "tenon")
 
 def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
     body = rigid_body_from_spec(spec)
-    if isinstance(body, Block) and ("mu" in spec.parameters or "surface" in spec.parameters):
-        body = body.without_ranges("mu")
     options = RespondOptions(**{**values, **spec_values(spec, *OWN_COLUMNS), **friction_from_spec(spec, values)})
     return SolverBody(spec.name, body, options)
 
@@ -41,7 +39,7 @@ SOLVER = register(
         outcome=RespondOutcome,
         solve=solve_respond,
         bodies=(Block, TwoLayerBlock, ScannedBody),
-        columns=(*BLOCK_COLUMNS, "mu", "mu_kinetic", "surface", *OWN_COLUMNS),
+        columns=(*BLOCK_COLUMNS, "mu", "mu_range", "mu_kinetic", "surface", *OWN_COLUMNS),
         build_body=_build_body,
         event="overturned",
         overturned="overturned",

@@ -169,7 +169,7 @@ def _hide_axes(axis: Axes) -> None:
 
 def _spring_line(foot: FloatArray, height: float, free: float) -> FloatArray:
     """Return the zigzag of a spring from its foot to a height, projected, (k, 2)."""
-    low, high = project(np.array([foot, foot + [0.0, 0.0, height]]))
+    low, high = project(foot + np.array([[0.0, 0.0, 0.0], [0.0, 0.0, height]]))
     share = np.linspace(0.0, 1.0, 2 * COILS + 2)
     aside = np.array([0.0, *(COIL_WIDTH * free * (0.5 if i % 2 else -0.5) for i in range(2 * COILS)), 0.0])
     return np.column_stack([low[0] + aside, low[1] + share * (high[1] - low[1])])

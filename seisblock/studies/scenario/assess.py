@@ -12,7 +12,6 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.factory import block_for_motion, table_friction
 from seisblock.bodies.table import BodySpec, pile_notes, resolve_kinds
-from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
@@ -115,7 +114,7 @@ def scenario_bodies(
     assumed = 0
     for spec, body in zip(specs, bodies, strict=True):
         if isinstance(body, SolverBody) and isinstance(body.body, Block) and is_friction_unknown(spec):
-            body = replace(body, body=with_unknown_friction(body.body))
+            body = replace(body, body=body.body.with_friction_range(UNKNOWN_FRICTION_RANGE))
             assumed += 1
         result.append(body)
     if not assumed:
@@ -137,11 +136,6 @@ def is_friction_unknown(spec: BodySpec) -> bool:
     if "mu" in spec.parameters or "surface" in spec.parameters:
         return False
     return spec.description is None or table_friction(spec.description, spec.source)[0] is None
-
-
-def with_unknown_friction(block: Block) -> Block:
-    """Return a block whose friction is drawn from :data:`UNKNOWN_FRICTION_RANGE`."""
-    return replace(block, ranges=replace(block.ranges or ParameterRanges(), mu=UNKNOWN_FRICTION_RANGE))
 
 
 def _with_distinct_names(specs: Sequence[BodySpec]) -> list[BodySpec]:
