@@ -1,4 +1,6 @@
-"""Items and rows of arrays and loops over a range have the same results in a kernel as in Python."""
+"""Items and rows of arrays, arithmetic, loops over a range and calls have the same results in a kernel as in Python."""
+
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -10,6 +12,16 @@ CUBE = _t.Array(_t.float64, 3, "C")
 FLAGS = _t.Array(_t.boolean, 1, "C")
 COUNTS = _t.Array(_t.int64, 2, "C")
 COLUMNS = _t.Array(_t.float64, 2, "A")
+
+
+class Parts(NamedTuple):
+    cube: np.ndarray
+    flags: np.ndarray
+    is_heavy: bool
+    sizes: tuple[float, float]
+
+
+PARTS = _t.NamedTuple((CUBE, FLAGS, _t.boolean, _t.UniTuple(_t.float64, 2)), Parts)
 
 
 @pytest.fixture(autouse=True)
@@ -116,3 +128,54 @@ def test_loops_over_a_range_have_the_values_of_python(start, stop, step):
         expected += [10 * i + j for j in range(min(i, 3)) if i != 1]
     expected += [*range(start, stop, step), *(-i for i in (range(start) if step > 0 else range(start, 0, -1)))]
     assert seen[:n].tolist() == expected
+
+
+@pytest.mark.parametrize("inline", [False, True])
+def test_kernels_pass_arrays_and_tuples_to_each_other_and_return_them(cube, inline):
+    @_jit.kernel(_t.Tuple((CUBE, _t.boolean, _t.UniTuple(_t.float64, 2)))(PARTS, _t.boolean, _t.int8), inline=inline)
+    def turn(parts, flag, count):
+        parts.cube[0, 0, 0] = parts.sizes[1] - count
+        return parts.cube, flag and not parts.is_heavy, (parts.sizes[1], parts.sizes[0])
+
+    @_jit.kernel(_t.void(FLAGS, _t.boolean))
+    def mark(flags, flag):
+        flags[1] = flag
+
+    @_jit.kernel(_t.float64(PARTS, _t.int64))
+    def total(parts, count):
+        first, flag, sizes = turn(parts, parts.flags[0], count)
+        mark(parts.flags, not flag)
+        _, flag, sizes = turn(Parts(first, parts.flags, True, sizes), flag, 1)
+        return first[0, 0, 0] + (10.0 if flag else 20.0) + 100.0 * sizes[0]
+
+    flags = np.array([True, False])
+    assert total(Parts(cube, flags, False, (3.0, 5.0)), 2) == (3.0 - 1) + 20.0 + 100.0 * 3.0
+    assert cube[0, 0, 0] == 2.0
+    assert flags.tolist() == [True, False]
+
+
+def test_an_error_in_a_called_kernel_is_raised():
+    @_jit.kernel(_t.int64(_t.int64), allocates=True)
+    def allocate(count):
+        return np.zeros(count).size
+
+    @_jit.kernel(_t.int64(_t.int64), allocates=True)
+    def allocate_twice(count):
+        return allocate(count) + allocate(count - 2)
+
+    assert allocate_twice(5) == 8
+    with pytest.raises(ValueError, match="negative dimensions"):
+        allocate_twice(1)
+
+
+def test_a_kernel_that_python_has_called_is_called_by_kernels(cube):
+    @_jit.kernel(_t.float64(CUBE, _t.int64))
+    def corner(a, i):
+        return a[i, 0, 0] * 2 - 1
+
+    @_jit.kernel(_t.float64(CUBE, _t.int64))
+    def corners(a, i):
+        return corner(a, i) + corner(a, i + 1)
+
+    assert corner(cube, 0) == cube[0, 0, 0] * 2 - 1
+    assert corners(cube, 0) == cube[0, 0, 0] * 2 - 1 + cube[1, 0, 0] * 2 - 1

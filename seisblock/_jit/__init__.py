@@ -101,7 +101,7 @@ def _internals() -> Any:
     """Return the module that uses private parts of numba; None for a version with which it has not been tested."""
     import numba
 
-    if (0, 61) <= numba.version_info.short < (0, 69):
+    if (0, 62) <= numba.version_info.short < (0, 69):
         from seisblock._jit import internals
 
         return internals

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any
 
+from llvmlite import ir as llvm
 from numba.core import cgutils, ir
 from numba.core import types as numba_types
 from numba.core.ir_utils import get_definition, guard
@@ -11,6 +13,9 @@ from numba.core.lowering import Lower
 from numba.cpython.slicing import fix_index
 
 types: Any = numba_types
+
+_ARITHMETIC = {operator.add: "fadd", operator.sub: "fsub", operator.mul: "fmul"}
+_TWO_NUMBERS = types.float64, types.float64
 
 
 class KernelLower(Lower):  # type: ignore[misc]
@@ -54,8 +59,11 @@ class KernelLower(Lower):  # type: ignore[misc]
         return super().lower_inst(inst)
 
     def lower_expr(self, resty: Any, expr: Any) -> Any:
-        """Read an array at constants; begin a loop over a range of step 1 and advance it."""
+        """Add and multiply; read an array at constants; begin a loop over a range of step 1 and advance it."""
         builder, operation = self.builder, expr.op
+        if operation == "binop" and expr.fn in _ARITHMETIC and self.fndesc.calltypes[expr].args == _TWO_NUMBERS:
+            numbers = [self.context.cast(builder, self.loadvar(x.name), self.typeof(x.name), types.float64) for x in (expr.lhs, expr.rhs)]
+            return self.context.cast(builder, getattr(builder, _ARITHMETIC[expr.fn])(*numbers), types.float64, resty)
         kind = self.typeof(expr.value.name) if operation in ("static_getitem", "getiter", "iternext", "pair_first", "pair_second") else None
         if isinstance(kind, types.Array):
             return self.lower_getitem(resty, expr, expr.value, expr.index_var, self.fndesc.calltypes[expr])
@@ -111,6 +119,50 @@ class KernelLower(Lower):  # type: ignore[misc]
                 is_positive = isinstance(kinds[axis], types.IntegerLiteral) and kinds[axis].literal_value >= 0
                 offset = builder.add(offset, item if is_positive or not kinds[axis].signed else fix_index(builder, item, size))
         return builder.gep(self._extract(array, descriptor, "data"), [offset])
+
+
+class CalleeLower(KernelLower):
+    """Lowering of a kernel that only kernels call: arrays and tuples are passed whole.
+
+    Numba passes each of their fields and puts them together again, which were 40 % of all LLVM instructions of ``stack``.
+    """
+
+    def setup_function(self, fndesc: Any) -> None:
+        """Begin the function."""
+        self.function = _declare(self.context, self.module, fndesc)
+        self.entry_block = self.function.append_basic_block("entry")
+        self.builder = llvm.IRBuilder(self.entry_block)
+        self.call_helper = self.call_conv.init_call_helper(self.builder)
+
+    def extract_function_arguments(self) -> Any:
+        """Return the arguments, which follow the addresses of the result and of an exception."""
+        self.fnargs = self.function.args[2:]
+        return self.fnargs
+
+
+def call_kernel(fndesc: Any, libraries: Any) -> Any:
+    """Return the implementation of calls of a kernel lowered by :class:`CalleeLower`, for numba's registry of functions."""
+
+    def implementation(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        function = _declare(context, builder.module, fndesc)
+        result = cgutils.alloca_once(builder, function.args[0].type.pointee)
+        code = builder.call(function, [result, builder.function.args[1], *arguments])
+        with cgutils.if_unlikely(builder, builder.icmp_signed("!=", code, code.type(0))):
+            builder.ret(code)
+        return context.get_returned_value(builder, fndesc.restype, builder.load(result))
+
+    implementation.libs = tuple(libraries)  # type: ignore[attr-defined]
+    return implementation
+
+
+def _declare(context: Any, module: Any, fndesc: Any) -> Any:
+    """Declare a kernel that takes its arguments whole."""
+    plain = context.call_conv.get_function_type(fndesc.restype, ())
+    kind = llvm.FunctionType(plain.return_type, [*plain.args, *map(context.get_value_type, fndesc.argtypes)])
+    function = cgutils.get_or_insert_function(module, kind, fndesc.mangled_name)
+    if fndesc.inline:
+        function.attributes.add("alwaysinline")
+    return function
 
 
 def _tuple_of(index: Any) -> tuple[Any, ...]:
