@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from seisblock import _jit
+from seisblock._jit.vectors import subtract_product, subtract_row
 
 _t = _jit.types()
 CUBE = _t.Array(_t.float64, 3, "C")
@@ -179,3 +180,22 @@ def test_a_kernel_that_python_has_called_is_called_by_kernels(cube):
 
     assert corner(cube, 0) == cube[0, 0, 0] * 2 - 1
     assert corners(cube, 0) == cube[0, 0, 0] * 2 - 1 + cube[1, 0, 0] * 2 - 1
+
+
+@pytest.mark.kernel
+def test_vectors_of_six_are_rounded_as_loops():
+    rng = np.random.default_rng(3)
+    left, right, block = rng.normal(size=(3, 40))
+
+    @_jit.kernel(_t.void(*[_t.Array(_t.float64, 1, "C")] * 3))
+    def subtract(left, right, block):
+        subtract_product(left, right, block)
+        subtract_row(left[0], right, 2, block, 34)
+
+    expected = block.copy()
+    for i in range(6):
+        for q in range(6):
+            expected[6 * i : 6 * i + 6] -= left[6 * q + i] * right[6 * q : 6 * q + 6]
+    expected[34:40] -= left[0] * right[2:8]
+    subtract(left, right, block)
+    assert (block == expected).all()

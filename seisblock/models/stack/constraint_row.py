@@ -47,8 +47,8 @@ CONE_CENTRE, STATIC, KINETIC, WAS_SLIDING, SLIP_DIRECTION, SLIP_SPEED, SLIP_STAT
     82,
 )
 PENALTY, PRESSURE, TRIAL_SLIP = 92, 93, 94
-PENALTY_CENTRE, SLIP_CHANGE = SEARCH_DIRECTION, SEARCH_DIRECTION + 3
 FORCE_SLOPE, SLIDING_DIRECTION, LAW_CHANGE, PROJECTED, SLIP_SLOPE, LAW_STEP = SEARCH_DIRECTION, SEARCH_DIRECTION + 3, 92, 95, 98, 99
+PENALTY_CENTRE, SLIP_CHANGE = LAW_STEP, SLIDING_DIRECTION
 ROW_COLUMNS = 102
 """Columns of a constraint row. Arms from the centres of both bodies (3, 3), m; normal out of the second body (3); Delassus block W, the
 velocity per unit impulse (9), and its inverse (9); spins per unit impulse (9, 9); impulse on the first body (3), N s; lower bound of the
@@ -59,10 +59,10 @@ Friction: centre of the cone over the normal impulse (3), static and kinetic coe
 m/s, of the slip, and slip state in the step. Reference speed of impacts, m/s; 1 for a contact of a standing stone; impulse before the
 sweeps (3); radius of the rim, m, negative if it belongs to the second body, 0 if none; share of a step within which impacts are
 simultaneous; share of the impulse of a restitution row; normal force before the impact, N; and impulse of the impacts at the step (3).
-Newton: penalty of a contact, N s per m/s, normal impulse of the friction limit, and relative velocity (3); centre of the penalty and
-change of the velocity by the step are in the columns of the search direction. The same columns hold, for the linearised laws, the slope
-of the impulse against the normal velocity (3), the direction of the sliding friction (3), the change of the impulse (3), the impulse
-projected on the cone (3), the slope of the friction across its direction, and the step of the impulse (3)."""
+Newton: slope of the impulse against the normal velocity (3) and direction of the sliding friction (3), in the columns of the search
+direction, and slope of the friction across its direction; for the laws, change of the impulse (3), impulse projected on the cone (3), and
+step of the impulse (3); for the convex function, in the same columns, penalty of a contact, N s per m/s, normal impulse of the friction
+limit, relative velocity (3), centre of the penalty (3), and change of the velocity by the step (3)."""
 
 LINEAR, ANGULAR, GYROSCOPIC, START_VELOCITY = 0, 3, 6, 9
 VELOCITY_COLUMNS = 15

@@ -10,9 +10,9 @@ symmetric: block factors L U within the envelope of the contact graph (band of o
 
 In a pile that collapses, the laws that act may change to and fro without end. Then the friction limits are held: the velocities after the
 step minimise a convex function, kinetic energy of the change plus a quadratic penalty of each contact law about a centre impulse (the
-augmented Lagrangian), by Newton steps with a block Cholesky factorisation, shortened by a line search, so that the active contacts cannot
-cycle. Friction limits follow from the last iterate; when they have settled, the centres move to the impulses, which removes the error of
-the penalty.
+augmented Lagrangian), by Newton steps with the same factorisation, shortened by a line search, so that the active contacts cannot cycle.
+Friction limits follow from the last iterate; when they have settled, the centres move to the impulses, which removes the error of the
+penalty.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from __future__ import annotations
 import math
 
 from seisblock._jit import kernel, types
+from seisblock._jit.vectors import subtract_product, subtract_row
 from seisblock.dynamics.array_types import BLOCK, INTEGER_TABLE, MATRIX, VECTOR
 from seisblock.models.stack.constraint_row import (
     ARM_A,
@@ -66,8 +67,9 @@ STALLED_ITERATIONS, SOFTENING, MAX_COMPLIANCE, EASY_ITERATIONS = 8, 10.0, 0.3, 3
 """Iterations without a move of the centres after which the compliance rises, by which factor, and up to which value: the active set of many
 sliding contacts settles sooner when they are soft. The compliance then falls only after a move within so few iterations."""
 
-MOVE_RATIO = 10.0
-"""Error of the impulses over that of the penalty at which the centres move."""
+MOVE_RATIO, FIRST_LAW_RATIO, LAW_RATIO = 10.0, 30.0, 3.0
+"""Error of the impulses over that of the penalty at which the centres move; and over that of all laws at which the compliance falls for the
+first time, and again: a stiff law that is not the one of the solution moves the impulses far away."""
 
 SLOPE_RATIO, MAX_EXTENSION, MAX_TRIALS = 0.3, 16.0, 12
 """Line search: slope over the first one at which it ends, largest step, and number of trials."""
@@ -249,230 +251,31 @@ def _errors(n, contact_ids, rows, ground, inertias, inverses, velocities, work):
     return change, penalty_error
 
 
-@kernel(_t.void(VECTOR, _t.int64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
-def _add_stiffness(row, arm, a00, a01, a02, a11, a12, a22, joint):
-    """Add G^T A G to the upper triangle of a joint's block, for the velocity G = [1, -r x] of a point of one body, and A = A^T."""
-    x, y, z = row[arm], row[arm + 1], row[arm + 2]
-    # -A (r x), row by row
-    b00, b01, b02 = a02 * y - a01 * z, a00 * z - a02 * x, a01 * x - a00 * y
-    b10, b11, b12 = a12 * y - a11 * z, a01 * z - a12 * x, a11 * x - a01 * y
-    b20, b21, b22 = a22 * y - a12 * z, a02 * z - a22 * x, a12 * x - a02 * y
-    joint[0] += a00
-    joint[1] += a01
-    joint[2] += a02
-    joint[3] += b00
-    joint[4] += b01
-    joint[5] += b02
-    joint[7] += a11
-    joint[8] += a12
-    joint[9] += b10
-    joint[10] += b11
-    joint[11] += b12
-    joint[14] += a22
-    joint[15] += b20
-    joint[16] += b21
-    joint[17] += b22
-    # r x of these columns
-    joint[21] += y * b20 - z * b10
-    joint[22] += y * b21 - z * b11
-    joint[23] += y * b22 - z * b12
-    joint[28] += z * b01 - x * b21
-    joint[29] += z * b02 - x * b22
-    joint[35] += x * b12 - y * b02
-
-
-@kernel(_t.void(_t.float64, _t.float64, _t.float64, VECTOR, VECTOR), inline=True)
-def _add_shifted_rows(x, y, z, joint, block):
-    """Add T^T M to the block of a body, for the block M = K T of a joint, in place, and the distance (x, y, z) of T."""
-    for j in range(6):
-        k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
-        joint[18 + j] += y * k2 - z * k1
-        joint[24 + j] += z * k0 - x * k2
-        joint[30 + j] += x * k1 - y * k0
-    for k in range(36):
-        block[k] += joint[k]
-
-
-@kernel(_t.void(_t.int64, MATRIX, MATRIX, VECTOR), inline=True)
-def _write_inertia(i, inertias, work, block):
-    """Write mass and inertia of body `i` to its block, which is zero elsewhere."""
-    for k in range(3):
-        block[7 * k] = inertias[i, 0]
-        for m in range(3):
-            block[6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
-
-
-@kernel(_t.void(_t.int64, _t.int64, _t.int64, VECTOR, VECTOR, BLOCK))
-def _add_joint(a, b, ground, row, joint, blocks):
-    """Add the block K of the contacts of two bodies to the Hessian, and clear it; K belongs to the second body, to the first on the ground.
-
-    The arms of both bodies differ by the distance d of their centres, so that [1, -r_a x] = [1, -r_b x] T with T = [1, -d x; 0, 1].
-    """
-    for i in range(1, 6):
-        for j in range(i):
-            joint[6 * i + j] = joint[6 * j + i]
-    awake = a if b == ground else b
-    for k in range(36):
-        blocks[awake, awake, k] += joint[k]
-    if a != ground and b != ground:
-        x, y, z = row[ARM_A] - row[ARM_B], row[ARM_A + 1] - row[ARM_B + 1], row[ARM_A + 2] - row[ARM_B + 2]
-        # K T
-        for i in range(6):
-            k0, k1, k2 = joint[6 * i], joint[6 * i + 1], joint[6 * i + 2]
-            joint[6 * i + 3] += k2 * y - k1 * z
-            joint[6 * i + 4] += k0 * z - k2 * x
-            joint[6 * i + 5] += k1 * x - k0 * y
-        for i in range(6):
-            for j in range(6):
-                # (K T)^T = T^T K
-                if b < a:
-                    blocks[b, a, 6 * i + j] -= joint[6 * i + j]
-                else:
-                    blocks[a, b, 6 * j + i] -= joint[6 * i + j]
-        _add_shifted_rows(x, y, z, joint, blocks[a, a])
-    for k in range(36):
-        joint[k] = 0.0
-
-
-@kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, BLOCK, MATRIX))
-def _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work):
-    """Write gradient and Hessian of the convex function at the velocities, with the friction limits held."""
+@kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, MATRIX, MATRIX))
+def _linearise_penalties(n, contact_ids, rows, ground, inertias, velocities, work):
+    """Write the gradient of the convex function at the velocities, and the slopes of the impulses, with the friction limits held."""
     _momentum_gradient(ground, inertias, velocities, work)
-    for i in range(ground):
-        for j in range(int(work[i, FIRST_NEIGHBOUR]), i + 1):
-            for k in range(36):
-                blocks[j, i, k] = 0.0
-        _write_inertia(i, inertias, work, blocks[i, i])
-    # the block of the ground is not needed: it collects the contacts of two bodies
-    joint, first = blocks[ground, ground], 0
-    for k in range(36):
-        joint[k] = 0.0
     for i in range(n):
-        row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
-        if a != contact_ids[first, 0] or b != contact_ids[first, 1]:
-            _add_joint(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
-            first = i
-        u0, u1, u2 = row[TRIAL_SLIP], row[TRIAL_SLIP + 1], row[TRIAL_SLIP + 2]
-        p0, p1, p2, normal, ratio = _penalty_impulse(row, u0, u1, u2, True)
-        _subtract_impulse(a, b, ground, row, p0, p1, p2, work)
-        # an open contact without friction adds no stiffness
-        if normal == 0.0 and ratio == 0.0:
-            continue
-        stiffness = row[PENALTY]
-        # A = along (n n) + across (1 - n n - d d), d: direction of the slip
-        along, across = (stiffness if normal != 0.0 else 0.0), ratio * stiffness
-        n0, n1, n2, d0, d1, d2 = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], 0.0, 0.0, 0.0
+        row = rows[i]
+        p0, p1, p2, normal, ratio = _penalty_impulse(row, row[TRIAL_SLIP], row[TRIAL_SLIP + 1], row[TRIAL_SLIP + 2], True)
+        _subtract_impulse(contact_ids[i, 0], contact_ids[i, 1], ground, row, p0, p1, p2, work)
+        stiffness = row[PENALTY] if normal != 0.0 else 0.0
+        for k in range(3):
+            row[FORCE_SLOPE + k] = stiffness * row[NORMAL + k]
+            row[SLIDING_DIRECTION + k] = 0.0
+        row[SLIP_SLOPE] = ratio * row[PENALTY]
         # across the slip, friction turns with it; along it, the impulse is at its limit and does not change
         if 0.0 < ratio < 1.0:
             pressure = row[PRESSURE]
             d0, d1, d2 = (
-                p0 - normal * n0 - pressure * row[CONE_CENTRE],
-                p1 - normal * n1 - pressure * row[CONE_CENTRE + 1],
-                p2 - normal * n2 - pressure * row[CONE_CENTRE + 2],
+                p0 - normal * row[NORMAL] - pressure * row[CONE_CENTRE],
+                p1 - normal * row[NORMAL + 1] - pressure * row[CONE_CENTRE + 1],
+                p2 - normal * row[NORMAL + 2] - pressure * row[CONE_CENTRE + 2],
             )
             size = math.sqrt(d0 * d0 + d1 * d1 + d2 * d2)
-            d0, d1, d2 = d0 / size, d1 / size, d2 / size
-        # written as across (1 - d d) + (along - across) n n
-        along -= across
-        _add_stiffness(
-            row,
-            ARM_A if b == ground else ARM_B,
-            across + along * n0 * n0 - across * d0 * d0,
-            along * n0 * n1 - across * d0 * d1,
-            along * n0 * n2 - across * d0 * d2,
-            across + along * n1 * n1 - across * d1 * d1,
-            along * n1 * n2 - across * d1 * d2,
-            across + along * n2 * n2 - across * d2 * d2,
-            joint,
-        )
-    _add_joint(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
-
-
-@kernel(_t.void(VECTOR, VECTOR, VECTOR), inline=True)
-def _subtract_product(left, right, block):
-    """Subtract U^T V of two blocks from a third."""
-    for i in range(0, 36, 6):
-        # a row at a time stays in registers
-        s0, s1, s2, s3, s4, s5 = block[i], block[i + 1], block[i + 2], block[i + 3], block[i + 4], block[i + 5]
-        for k in range(0, 36, 6):
-            x = left[k + i // 6]
-            s0 -= x * right[k]
-            s1 -= x * right[k + 1]
-            s2 -= x * right[k + 2]
-            s3 -= x * right[k + 3]
-            s4 -= x * right[k + 4]
-            s5 -= x * right[k + 5]
-        block[i] = s0
-        block[i + 1] = s1
-        block[i + 2] = s2
-        block[i + 3] = s3
-        block[i + 4] = s4
-        block[i + 5] = s5
-
-
-@kernel(_t.boolean(_t.int64, BLOCK, MATRIX))
-def _factorise(bodies, blocks, work):
-    """Replace the Hessian by its upper Cholesky factor, with inverted diagonal, within its envelope; return whether it is positive."""
-    for i in range(bodies):
-        first = int(work[i, FIRST_NEIGHBOUR])
-        for k in range(first, i):
-            column, diagonal = blocks[k, i], blocks[k, k]
-            # blocks before either envelope are zero
-            for m in range(max(first, int(work[k, FIRST_NEIGHBOUR])), k):
-                _subtract_product(blocks[m, k], blocks[m, i], column)
-            for r in range(6):
-                for q in range(r):
-                    x = diagonal[6 * q + r]
-                    for j in range(6):
-                        column[6 * r + j] -= x * column[6 * q + j]
-                for j in range(6):
-                    column[6 * r + j] *= diagonal[7 * r]
-            _subtract_product(column, column, blocks[i, i])
-        block = blocks[i, i]
-        for r in range(6):
-            # not positive, or NaN after an overflow: the sweeps take over
-            if not block[7 * r] > 0.0:
-                return False
-            x = 1.0 / math.sqrt(block[7 * r])
-            # the inverse of the diagonal is stored, so that substitutions need no division
-            block[7 * r] = x
-            for j in range(r + 1, 6):
-                block[6 * r + j] *= x
-            for q in range(r + 1, 6):
-                y = block[6 * r + q]
-                for j in range(q, 6):
-                    block[6 * q + j] -= y * block[6 * r + j]
-    return True
-
-
-@kernel(_t.void(_t.int64, BLOCK, MATRIX))
-def _newton_step(bodies, blocks, work):
-    """Solve for the step against the gradient by forward and back substitution."""
-    for i in range(bodies):
-        x = work[i]
-        for k in range(6):
-            x[STEP + k] = -x[GRADIENT + k]
-        for k in range(int(x[FIRST_NEIGHBOUR]), i):
-            block, y = blocks[k, i], work[k]
-            for r in range(6):
-                for j in range(6):
-                    x[STEP + j] -= block[6 * r + j] * y[STEP + r]
-        block = blocks[i, i]
-        for r in range(6):
-            x[STEP + r] *= block[7 * r]
-            for j in range(r + 1, 6):
-                x[STEP + j] -= block[6 * r + j] * x[STEP + r]
-    for i in range(bodies - 1, -1, -1):
-        x, block = work[i], blocks[i, i]
-        for r in range(5, -1, -1):
-            for j in range(r + 1, 6):
-                x[STEP + r] -= block[6 * r + j] * x[STEP + j]
-            x[STEP + r] *= block[7 * r]
-        for k in range(int(x[FIRST_NEIGHBOUR]), i):
-            block, y = blocks[k, i], work[k]
-            for r in range(6):
-                for j in range(6):
-                    y[STEP + r] -= block[6 * r + j] * x[STEP + j]
+            row[SLIDING_DIRECTION] = d0 / size
+            row[SLIDING_DIRECTION + 1] = d1 / size
+            row[SLIDING_DIRECTION + 2] = d2 / size
 
 
 @kernel(_t.float64(_t.float64, _t.int64, MATRIX), inline=True)
@@ -638,7 +441,7 @@ def _add_law(row, arm, joint):
 
 
 @kernel(_t.void(_t.int64, _t.int64, _t.int64, VECTOR, VECTOR, BLOCK))
-def _add_joint_laws(a, b, ground, row, joint, blocks):
+def _add_joint(a, b, ground, row, joint, blocks):
     """Add the block K of the contacts of two bodies to the matrix, and clear it; K belongs to the second body, to the first on the ground.
 
     The arms of both bodies differ by the distance d of their centres, so that [1, -r_a x] = [1, -r_b x] T with T = [1, -d x; 0, 1].
@@ -671,39 +474,49 @@ def _add_joint_laws(a, b, ground, row, joint, blocks):
                     blocks[low, high, 6 * i + j] -= joint[6 * i + j]
                 else:
                     blocks[high, low, 6 * j + i] -= joint[6 * i + j]
-        _add_shifted_rows(x, y, z, joint, blocks[a, a])
+        # T^T K T is that of the first body
+        for j in range(6):
+            k0, k1, k2 = joint[j], joint[6 + j], joint[12 + j]
+            joint[18 + j] += y * k2 - z * k1
+            joint[24 + j] += z * k0 - x * k2
+            joint[30 + j] += x * k1 - y * k0
+        for k in range(36):
+            blocks[a, a, k] += joint[k]
     for k in range(36):
         joint[k] = 0.0
 
 
 @kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, BLOCK, MATRIX))
-def _assemble_laws(n, contact_ids, rows, ground, inertias, blocks, work):
-    """Write matrix and right-hand side of the equations of momentum with the linearised laws."""
+def _assemble(n, contact_ids, rows, ground, inertias, blocks, work):
+    """Write the matrix of the equations of momentum with the slopes of the impulses."""
     for i in range(ground):
-        for k in range(6):
-            work[i, GRADIENT + k] = 0.0
         for j in range(int(work[i, FIRST_NEIGHBOUR]), i + 1):
             for k in range(36):
                 blocks[j, i, k] = 0.0
                 blocks[i, j, k] = 0.0
-        _write_inertia(i, inertias, work, blocks[i, i])
+        for k in range(3):
+            blocks[i, i, 7 * k] = inertias[i, 0]
+            for m in range(3):
+                blocks[i, i, 6 * (3 + k) + 3 + m] = work[i, INERTIA + 3 * k + m]
     # the block of the ground is not needed: it collects the contacts of two bodies
-    joint, first = blocks[ground, ground], 0
+    joint, first, is_loaded = blocks[ground, ground], 0, False
     for k in range(36):
         joint[k] = 0.0
     for i in range(n):
         row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
         if a != contact_ids[first, 0] or b != contact_ids[first, 1]:
-            _add_joint_laws(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
-            first = i
-        _subtract_impulse(a, b, ground, row, row[LAW_CHANGE], row[LAW_CHANGE + 1], row[LAW_CHANGE + 2], work)
-        if row[FORCE_SLOPE] != 0.0 or row[FORCE_SLOPE + 1] != 0.0 or row[FORCE_SLOPE + 2] != 0.0:
+            if is_loaded:
+                _add_joint(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
+            first, is_loaded = i, False
+        if row[SLIP_SLOPE] != 0.0 or row[FORCE_SLOPE] != 0.0 or row[FORCE_SLOPE + 1] != 0.0 or row[FORCE_SLOPE + 2] != 0.0:
             _add_law(row, ARM_A if b == ground else ARM_B, joint)
-    _add_joint_laws(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
+            is_loaded = True
+    if is_loaded:
+        _add_joint(contact_ids[first, 0], contact_ids[first, 1], ground, rows[first], joint, blocks)
 
 
 @kernel(_t.boolean(_t.int64, BLOCK, MATRIX))
-def _factorise_laws(bodies, blocks, work):
+def _factorise(bodies, blocks, work):
     """Replace the matrix by its factors L U within its envelope, L with a unit diagonal; return whether they exist.
 
     Blocks below the diagonal are stored transposed, and the diagonal of U is inverted.
@@ -714,17 +527,16 @@ def _factorise_laws(bodies, blocks, work):
             upper, lower, diagonal = blocks[k, i], blocks[i, k], blocks[k, k]
             # blocks before either envelope are zero
             for m in range(max(first, int(work[k, FIRST_NEIGHBOUR])), k):
-                _subtract_product(blocks[k, m], blocks[m, i], upper)
-                _subtract_product(blocks[m, k], blocks[i, m], lower)
+                subtract_product(blocks[k, m], blocks[m, i], upper)
+                subtract_product(blocks[m, k], blocks[i, m], lower)
             for r in range(6):
                 for q in range(r):
                     x, y = diagonal[6 * r + q], diagonal[6 * q + r]
-                    for j in range(6):
-                        upper[6 * r + j] -= x * upper[6 * q + j]
-                        lower[6 * r + j] -= y * lower[6 * q + j]
+                    subtract_row(x, upper, 6 * q, upper, 6 * r)
+                    subtract_row(y, lower, 6 * q, lower, 6 * r)
                 for j in range(6):
                     lower[6 * r + j] *= diagonal[7 * r]
-            _subtract_product(lower, upper, blocks[i, i])
+            subtract_product(lower, upper, blocks[i, i])
         block = blocks[i, i]
         for r in range(6):
             # strong friction may leave negative pivots; zero, or NaN after an overflow, has no inverse
@@ -739,7 +551,7 @@ def _factorise_laws(bodies, blocks, work):
 
 
 @kernel(_t.void(_t.int64, BLOCK, MATRIX))
-def _law_step(bodies, blocks, work):
+def _newton_step(bodies, blocks, work):
     """Solve for the step against the gradient by forward and back substitution."""
     for i in range(bodies):
         x, block = work[i], blocks[i, i]
@@ -817,9 +629,9 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
                 row[IMPULSE + 2] += p2
                 apply_impulse(contact_ids[i, 0], contact_ids[i, 1], ground, inertias, row, p0, p1, p2, velocities)
             continue
-        factor = 1.0
+        factor, ratio = 1.0, LAW_RATIO if proximity < 0.5 * FIRST_PROXIMITY else FIRST_LAW_RATIO
         # the laws that act have settled: what is left is the velocity that the proximity leaves
-        if length == 1.0 and law_error > ACCURACY * tolerance and change < MOVE_RATIO * law_error and proximity > MIN_PROXIMITY:
+        if length == 1.0 and law_error > ACCURACY * tolerance and change < ratio * law_error and proximity > MIN_PROXIMITY:
             factor = PROXIMITY_FACTOR
         elif length < SHORT_LENGTH and proximity < MAX_PROXIMITY:
             factor = 1.0 / PROXIMITY_FACTOR
@@ -832,10 +644,16 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
         last_error, length, iterations = error, 1.0, iterations + 1
         if iterations > MAX_LAW_ITERATIONS:
             break
-        _assemble_laws(n, contact_ids, rows, ground, inertias, blocks, work)
-        if not _factorise_laws(ground, blocks, work):
+        for i in range(ground):
+            for k in range(6):
+                work[i, GRADIENT + k] = 0.0
+        for i in range(n):
+            p0, p1, p2 = rows[i, LAW_CHANGE], rows[i, LAW_CHANGE + 1], rows[i, LAW_CHANGE + 2]
+            _subtract_impulse(contact_ids[i, 0], contact_ids[i, 1], ground, rows[i], p0, p1, p2, work)
+        _assemble(n, contact_ids, rows, ground, inertias, blocks, work)
+        if not _factorise(ground, blocks, work):
             break
-        _law_step(ground, blocks, work)
+        _newton_step(ground, blocks, work)
         for i in range(n):
             row, a, b = rows[i], contact_ids[i, 0], contact_ids[i, 1]
             u0, u1, u2 = relative_velocity(a, b, row, work)
@@ -861,7 +679,7 @@ def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, ve
         As in :func:`~seisblock.models.stack.pgs.solve_pgs`.
     tolerance : float, m/s
     blocks, work : (m + 1, m + 1, 36), (m + 1, 28) arrays
-        Scratch: blocks of the Hessian, and rows of the bodies.
+        Scratch: blocks of the matrix, and rows of the bodies.
     """
     _begin(n, contact_ids, rows, ground, inertias, inverses, velocities, work)
     iterations = _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, blocks, work)
@@ -901,7 +719,8 @@ def solve_newton(n, contact_ids, rows, ground, inertias, inverses, tolerance, ve
                 _, _, _, normal, _ = _penalty_impulse(row, row[TRIAL_SLIP], row[TRIAL_SLIP + 1], row[TRIAL_SLIP + 2], False)
                 row[PRESSURE] = max(normal, 0.0)
         since_move += 1
-        _assemble(n, contact_ids, rows, ground, inertias, velocities, blocks, work)
+        _linearise_penalties(n, contact_ids, rows, ground, inertias, velocities, work)
+        _assemble(n, contact_ids, rows, ground, inertias, blocks, work)
         if not _factorise(ground, blocks, work):
             return 0
         _newton_step(ground, blocks, work)
