@@ -10,7 +10,7 @@ from seisblock import Block, Contact, SlidingBase, solve_jump, solve_respond, so
 from seisblock.measures import measure
 from seisblock.models.jump.chain import JumpPhase
 from seisblock.models.jump.interpolate import POINTS_PER_PHASE, interpolate_phases
-from seisblock.output.figures.curves import MAX_POINTS, decimate
+from seisblock.output.figures.curves import MAX_POINTS, decimate, draw_curve
 from seisblock.output.figures.solver import response_figure
 from seisblock.output.figures.style import new_figure
 from seisblock.records import Motion, Preparation, motion_of
@@ -164,6 +164,20 @@ def test_thinning_keeps_extremes_and_gaps():
         if not np.isnan(part).all():
             assert np.nanmin(remaining) == np.nanmin(part) and np.nanmax(remaining) == np.nanmax(part)
     assert np.isnan(y[(x >= 20_000) & (x < 20_400)]).all()
+
+
+@pytest.mark.parametrize(("limits", "top"), [((0.0, 2.0), 2.0), (None, 9.0)])
+def test_curve_scales_to_the_interval_shown(limits, top):
+    """`rigid3d` cut its data to the interval shown; the other figures were scaled by what no panel shows."""
+    _, (axis,) = new_figure(1)
+    if limits:
+        axis.set_xlim(*limits)
+    time = np.linspace(0.0, 9.0, 901)
+    draw_curve(axis, time, time)
+    assert axis.get_ylim()[1] == pytest.approx(top, rel=0.06)
+    if limits:
+        axis.set_xlim(0.0, 9.0)
+        assert axis.lines[0].get_xdata()[-1] == 9.0
 
 
 def test_thinning_keeps_points_of_quiet_part():

@@ -203,4 +203,6 @@ def test_figure_in_three_dimensions_scales_to_the_interval_that_it_shows():
     end = panels[0].get_xlim()[1]
     assert end < response.time[-1]
     for panel in panels:
-        assert panel.lines[0].get_xdata()[-1] <= end
+        low, high = panel.get_ylim()
+        shown = np.concatenate([line.get_ydata()[line.get_xdata() <= end] for line in panel.lines])
+        assert np.ptp(shown) > 0.85 * (high - low)

@@ -74,21 +74,18 @@ def figure(
     disp_unit = length_unit((response.outcome.max_displacement_m for response in responses), gal=gal)
     columns = history_columns(histories, motions, spans, 4, heights=(1.3, 1.0, 1.0, 1.0))
     chances = list(probabilities) or [None] * len(responses)
-    for panels, name, response, chance, span in zip(columns, panel_labels(motions), responses, chances, spans, strict=True):
-        # a fallen rock rolls on: its twist of thousands of degrees would set the scale
-        in_view = (response.time >= span[0]) & (response.time <= span[1])
-        time = response.time[in_view]
+    for panels, name, response, chance in zip(columns, panel_labels(motions), responses, chances, strict=True):
         solid = convex_body(response.body)
         sizes = object_label(*np.ptp(solid.points, axis=0).tolist(), friction=response.options.mu, probability=chance, gal=gal)
         _draw_ground(panels[0], f"{name}  {gettext(solid.name)} {sizes}\n{gettext(verdict(response, gal=gal))}", response, gal=gal)
         for channel, colour, dashes in (("x", style.ACCENT, "-"), ("y", style.SECOND, (0, (5, 1.5)))):
-            shift = (response[channel][in_view] - response[channel][0]) / disp_unit.size
-            draw_curve(panels[1], time, shift, color=colour, label=channel, linestyle=dashes, linewidth=1.1)
+            shift = (response[channel] - response[channel][0]) / disp_unit.size
+            draw_curve(panels[1], response.time, shift, color=colour, label=channel, linestyle=dashes, linewidth=1.1)
         style.label_axes(panels[1], y=gettext("displacement ({unit})", unit=disp_unit.name))
         style.add_legend(panels[1])
-        draw_curve(panels[2], time, np.degrees(response["tilt"][in_view]), color=style.ACCENT, linewidth=1.1)
+        draw_curve(panels[2], response.time, np.degrees(response["tilt"]), color=style.ACCENT, linewidth=1.1)
         style.label_axes(panels[2], y=gettext("tilt (deg)"))
-        draw_curve(panels[3], time, twist_history(response)[in_view], color=style.ACCENT, linewidth=1.1)
+        draw_curve(panels[3], response.time, twist_history(response), color=style.ACCENT, linewidth=1.1)
         style.label_axes(panels[3], y=gettext("twist (deg)"))
     return fig
 

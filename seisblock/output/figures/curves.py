@@ -17,6 +17,9 @@ MAX_POINTS = 4000
 def draw_curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap: float | None = None, **style: Any) -> None:
     """Draw a curve, decimated with its extrema kept whenever the limits of the panel change.
 
+    The vertical scale is that of the points between the limits of time, of all points where none were set: a rock that rolls on after
+    the interval shown has a twist of thousands of degrees.
+
     Parameters
     ----------
     axis : Axes
@@ -30,8 +33,8 @@ def draw_curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap:
     if longest_gap is not None:
         gaps = np.flatnonzero(np.abs(np.diff(time)) > longest_gap) + 1
         time, values = np.insert(time, gaps, time[gaps]), np.insert(values, gaps, np.nan)
-    # all points first, since autoscaling uses the full data
-    (line,) = axis.plot(time, values, **{"linewidth": 0.9, **style})
+    shown = (time, values) if axis.get_autoscalex_on() else in_view(time, values, *axis.get_xlim())
+    (line,) = axis.plot(*shown, **{"linewidth": 0.9, **style})
 
     def show(panel: Axes) -> None:
         line.set_data(*decimate(*in_view(time, values, *panel.get_xlim())))
