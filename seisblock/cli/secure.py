@@ -116,6 +116,7 @@ def secure(
     from seisblock.core.errors import ParameterError
     from seisblock.report.json.secure import document
     from seisblock.report.text import secure as text_output
+    from seisblock.studies.scenario.assess import UNKNOWN_FRICTION_RANGE
     from seisblock.studies.scenario.secure import find_measures, unresolved_target
 
     # before the records are generated
@@ -155,7 +156,7 @@ def secure(
             seed=seed,
             progress=advance,
         )
-    notes = motions.notes
+    notes = (*body_notes, *motions.notes)
     if (limit := unresolved_target(result)) is not None:
         text = "target too small for {runs} runs: even without an overturning the probability may be {limit:.1%} (95 % confidence)"
         notes = (*notes, lazy_gettext(text, runs=result.runs, limit=limit))
@@ -166,7 +167,7 @@ def secure(
             result,
             motions,
             body.options,
-            mu=None if body_notes else body.options.mu,
+            mu=None if getattr(body.body.ranges, "mu", None) == UNKNOWN_FRICTION_RANGE else body.options.mu,
             seed=seed,
             hazard=None if hazard is None else hazard.name,
             notes=notes,

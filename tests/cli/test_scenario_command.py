@@ -120,6 +120,21 @@ def test_secure_writes_document_and_rejects_scans():
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("few_runs")
+def test_measures_for_a_pile_are_said_to_be_those_of_one_block():
+    """A lantern of six stones needed "no measure"; the document of `secure` had no note, and no friction where one was given."""
+    line = ("--jma", "6-", "--records", "10")
+    (entry,) = json.loads(run("scenario", *line, "--bodies", "lantern", "--json").stdout)["results"]
+    (advice,) = entry["advice"]
+    assert entry["class"] == "stays" and "6 stones" in advice and "seisblock stack" in advice
+    result = run("secure", *line, "--block", "lantern", "--mu", "0.6")
+    assert result.stdout.startswith("6 stones as one rigid block, lantern")
+    document = json.loads(run("secure", *line, "--block", "lantern", "--mu", "0.6", "--json").stdout)
+    assert document["results"][0]["stone_count"] == 6 and document["parameters"]["mu"] == 0.6
+    assert any("6 stones as one rigid block" in note for note in document["notes"])
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("few_runs")
 def test_secure_assumes_the_friction_and_gives_the_probability_of_a_scenario(tmp_path):
     path = tmp_path / "list.csv"
     path.write_text("name,width (cm),height (cm),place\nbad,x,1,\nshelf,30,150,hall\n", encoding="utf-8")

@@ -8,6 +8,7 @@ from typing import Any
 from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import N_, format_percent, format_share, gettext, join_clauses, join_list
 from seisblock.output.text.tables import DASH, format_number, styled_line, table
+from seisblock.report.text.assessment import name_pile
 from seisblock.studies.scenario.secure import BASE_MASS, FRICTION, HEIGHT, INSET, RESTRAINT, WIDTH, Measure, Security, with_reason
 
 MAX_PAIRS = 3
@@ -93,13 +94,14 @@ def verdict(result: Security, label: str) -> str:
     text = N_("{body}, {scenario}: overturning probability {now}, target {target}")
     if result.overturning_probability <= result.target_probability:
         text = N_("{body}, {scenario}: overturning probability {now}, target {target}: no measure required")
-    return gettext(
+    sentence = gettext(
         text,
         body=body_name(result.body),
         scenario=gettext(label),
         now=format_share(result.overturning_probability),
         target=format_percent(result.target_probability, ".3g"),
     )
+    return name_pile(sentence, result.stone_count)
 
 
 def tables(result: Security, label: str) -> Iterator[Any]:

@@ -15,7 +15,7 @@ from seisblock.bodies.table import BodySpec, pile_notes, resolve_kinds
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
-from seisblock.core.i18n import Message, lazy_gettext
+from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.registry import SolverBody, get_solver
 from seisblock.core.typing import IntArray, Progress
 from seisblock.records.record import Record
@@ -297,6 +297,11 @@ def _with_advice(risk: ObjectRisk, block: Block, body: SolverBody) -> ObjectRisk
                 gap=max(np.ceil(100.0 * (risk.displacement_m or 0.0)), 1.0),
             )
         )
-    else:
+    elif block.stone_count == 1:
         advice.append(lazy_gettext("No measure required in this scenario."))
+    if block.stone_count > 1:
+        text = N_(
+            "The {count} stones were taken as one rigid block: upper ones may fall earlier, seisblock stack computes them one by one."
+        )
+        advice.append(lazy_gettext(text, count=block.stone_count))
     return replace(risk, advice=tuple(advice))

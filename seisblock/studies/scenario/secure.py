@@ -226,6 +226,8 @@ class Security(DisplayMixin):
     measures : tuple of Measure
     years : float or None
         Period of the probabilities under a hazard; None in a scenario.
+    stone_count : int
+        Stones of a pile, taken as one rigid block; 1 for a single body.
     """
 
     body: str
@@ -234,6 +236,7 @@ class Security(DisplayMixin):
     runs: int
     measures: tuple[Measure, ...]
     years: float | None = None
+    stone_count: int = 1
 
 
 def unresolved_target(result: Security) -> float | None:
@@ -384,7 +387,7 @@ def find_measures(
     else:
         restraint = _restraint(search, target, height, has_mass=has_mass)
     years = None if frequencies is None else frequencies.years
-    return Security(body.name, target, own_probability, search.runs, (*measures, restraint), years)
+    return Security(body.name, target, own_probability, search.runs, (*measures, restraint), years, body.body.stone_count)
 
 
 def _refine(
