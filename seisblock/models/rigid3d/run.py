@@ -60,12 +60,16 @@ MAX_ANGLE = 0.01
 """Largest rotation, and largest phase of rocking, per step, rad. Contacts lift, stick and slip within a step, an error of first order."""
 
 MAX_IMPACTS = 64
-"""Impacts per interval of the record after which the rest of the interval is stepped with all near vertices as contacts."""
+"""Impacts per interval of the record after which the rest of the interval is stepped with all near vertices as contacts; ends of slips per
+interval at which steps end."""
 
 MAX_ROOT_STEPS = 60
 
 MIN_SHARE = 1e-3
 """Shortest step that is tried where the solution of a step does not converge, a share of it."""
+
+MAX_SLIP_STEPS, SLIP_SHARE = 8, 0.98
+"""Attempts to end a step where a slip ends, and share of a step from which on that is its end."""
 
 NEAR_SHARE = 0.02
 """Height up to which vertices are followed while none has moved as far, a share of the size of the body."""
@@ -212,11 +216,37 @@ def _try_step(motion, dt, s, t, size, count, body, scratch):
     return midpoint_step(scratch.state, size, a0, a1, a2 + body.constants[GRAVITY], count, body, scratch)
 
 
+@kernel(_t.float64(_t.int64, BODY, SCRATCH))
+def _share_of_slip(count, body, scratch):
+    """Return the share of a step after which the first of the slips of its contacts ends, 1 without an end."""
+    y, trial, r, vertices = scratch.state, scratch.trial, scratch.rotation, body.vertices
+    limit, first = body.constants[SPEED] ** 2, 1.0
+    # spins in the ground's axes; the rotation of a step is small
+    a0 = r[0] * y[W] + r[1] * y[W + 1] + r[2] * y[W + 2]
+    a1 = r[3] * y[W] + r[4] * y[W + 1] + r[5] * y[W + 2]
+    a2 = r[6] * y[W] + r[7] * y[W + 1] + r[8] * y[W + 2]
+    b0 = r[0] * trial[W] + r[1] * trial[W + 1] + r[2] * trial[W + 2]
+    b1 = r[3] * trial[W] + r[4] * trial[W + 1] + r[5] * trial[W + 2]
+    b2 = r[6] * trial[W] + r[7] * trial[W + 1] + r[8] * trial[W + 2]
+    for k in range(count):
+        i = scratch.ids[k]
+        x, y_, z = vertices[0, i], vertices[1, i], vertices[2, i]
+        x0, x1, x2 = r[0] * x + r[1] * y_ + r[2] * z, r[3] * x + r[4] * y_ + r[5] * z, r[6] * x + r[7] * y_ + r[8] * z
+        u0, u1 = y[V] + a1 * x2 - a2 * x1, y[V + 1] + a2 * x0 - a0 * x2
+        # the arm of a contact is the mean of those at both ends
+        x0, x1, x2 = 2.0 * scratch.contacts[k, 0] - x0, 2.0 * scratch.contacts[k, 1] - x1, 2.0 * scratch.contacts[k, 2] - x2
+        product = u0 * (trial[V] + b1 * x2 - b2 * x1) + u1 * (trial[V + 1] + b2 * x0 - b0 * x2)
+        squared = u0 * u0 + u1 * u1
+        if squared > limit and product < 0.0:
+            first = min(first, squared / (squared - product))
+    return first
+
+
 @kernel(_t.boolean(READ_ONLY_MATRIX, _t.float64, _t.int64, _t.float64, BODY, SCRATCH))
 def _advance(motion, dt, s, start, body, scratch):
     """Advance the state from a time within interval `s` to its end; return whether the state is finite."""
     y, trial, c, ledger, counters = scratch.state, scratch.trial, body.constants, scratch.ledger, scratch.counters
-    t, impacts, touching, margin = start, 0, c[GAP], NEAR_SHARE * c[SIZE]
+    t, impacts, turns, touching, margin = start, 0, 0, c[GAP], NEAR_SHARE * c[SIZE]
     list_near(y, margin, body, scratch)
     while t < dt:
         spin = math.sqrt(y[W] * y[W] + y[W + 1] * y[W + 1] + y[W + 2] * y[W + 2])
@@ -240,6 +270,17 @@ def _advance(motion, dt, s, start, body, scratch):
         while not solved and size > MIN_SHARE * h:
             size *= 0.5
             solved = _try_step(motion, dt, s, t, size, count, body, scratch)
+        # a slip that ends or turns within the step has friction of two directions or kinds: the step ends there
+        for attempt in range(MAX_SLIP_STEPS if solved and not capped and turns < MAX_IMPACTS else 0):
+            share = _share_of_slip(count, body, scratch)
+            if share > SLIP_SHARE or size <= MIN_SHARE * h:
+                break
+            turns += attempt == 0
+            shorter = max(share * size, MIN_SHARE * h)
+            if not _try_step(motion, dt, s, t, shorter, count, body, scratch):
+                solved = _try_step(motion, dt, s, t, size, count, body, scratch)
+                break
+            size = shorter
         shortened = size < h
         high = size
         for attempt in range(MAX_ROOT_STEPS):
