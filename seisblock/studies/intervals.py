@@ -37,12 +37,13 @@ def clopper_pearson(count: int, runs: int, confidence: float = CONFIDENCE) -> tu
     >>> round(low, 4), round(high, 4)
     (0.2573, 0.4518)
     """
+    tail = (1.0 - _check_counts(count, runs, confidence)) / 2.0
+    # without an import of 0.2 s in the commonest cases
+    if count in (0, runs):
+        return (tail ** (1.0 / runs), 1.0) if count else (0.0, 1.0 - tail ** (1.0 / runs))
     from scipy.special import betaincinv
 
-    tail = (1.0 - _check_counts(count, runs, confidence)) / 2.0
-    low = float(betaincinv(count, runs - count + 1, tail)) if count else 0.0
-    high = float(betaincinv(count + 1, runs - count, 1.0 - tail)) if count < runs else 1.0
-    return low, high
+    return float(betaincinv(count, runs - count + 1, tail)), float(betaincinv(count + 1, runs - count, 1.0 - tail))
 
 
 def clustered_interval(counts: Sequence[int], runs: Sequence[int], confidence: float = CONFIDENCE) -> tuple[float, float]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import wear_within
@@ -27,9 +28,11 @@ from seisblock.measures.peaks import peak_acceleration
 from seisblock.measures.summary import conventions_of, motion_peaks
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
-from seisblock.models.stack.outcome import StackOutcome
 from seisblock.records import Motion
 from seisblock.records._validation import vertical_gain
+
+if TYPE_CHECKING:
+    from seisblock.models.stack.outcome import StackOutcome
 
 SHARP_BLOCK = N_("rigid block with sharp edges")
 WORN_BLOCK = N_("rigid block with worn edges")

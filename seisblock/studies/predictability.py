@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -33,9 +33,10 @@ from seisblock.models.rock import model as rock_model
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_params
 from seisblock.models.rock.solve import initial_mode, outcome_after_record
-from seisblock.models.stack.outcome import StackOutcome
-from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
+
+if TYPE_CHECKING:
+    from seisblock.models.stack.outcome import StackOutcome
 
 INPUT_CHANGE = 2e-6
 """Largest relative change of the input."""
@@ -132,6 +133,9 @@ def stack_predictable_until(response: Response[StackOutcome]) -> float | None:
     response : Response
         Of :func:`~seisblock.models.stack.solve.solve_stack`.
     """
+    # other objects need no piles, which take 0.1 s to import
+    from seisblock.models.stack.solve import solve_stack
+
     return _first_departure_of_copies(response, solve_stack, _pile_columns, PILE_CHANGES)
 
 

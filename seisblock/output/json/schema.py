@@ -22,6 +22,9 @@ from seisblock.references import papers
 
 Entry = TypeVar("Entry", bound=Struct)
 
+NOTES_KEY = {"notes": Annotated[list[str], Meta(description="Origin of the records, and assumptions on the objects.")]}
+"""Key of documents about many objects, beside their results."""
+
 
 def fill(kind: type[Entry], *sources: Any, **values: Any) -> Entry:
     """Return an entry from values of its keys, and from the first object with an attribute of the name of another key, unit aside."""

@@ -10,9 +10,8 @@ from seisblock.core.i18n import Message
 from seisblock.criteria.compare import CriterionResult
 from seisblock.models.rock.options import RockOptions
 from seisblock.output.json.bodies import BlockEntry, block_entry
-from seisblock.output.json.schema import Document, DocumentSchema, Result
+from seisblock.output.json.schema import NOTES_KEY, Document, DocumentSchema, Result
 from seisblock.references import find_citations, papers
-from seisblock.report.json.scenario import NOTES_KEY
 from seisblock.studies.scenario.peaks import PeakAssessment, SuiteProbability
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-from msgspec import Meta, Struct
+from msgspec import Struct
 
 from seisblock.output.json.entries import entry_type, to_entry
-from seisblock.output.json.schema import Document, DocumentSchema
+from seisblock.output.json.schema import NOTES_KEY, Document, DocumentSchema
 from seisblock.records import Record
 from seisblock.references import command_papers
 from seisblock.studies.scenario.assess import ObjectRisk
@@ -68,7 +68,6 @@ def scenario_parameters(
 
 
 SCENARIO_RESULT = entry_type("ScenarioResult", ObjectRisk, aliases={"class_name": "class"})
-NOTES_KEY = {"notes": Annotated[list[str], Meta(description="Origin of the records, and assumptions on the objects.")]}
 SCENARIO = DocumentSchema("scenario", ScenarioParameters, SCENARIO_RESULT, NOTES_KEY)
 
 

@@ -9,9 +9,9 @@ import msgspec
 
 from seisblock.models.respond.options import RespondOptions
 from seisblock.output.json.entries import entry_type, to_entry
-from seisblock.output.json.schema import Document, DocumentSchema
+from seisblock.output.json.schema import NOTES_KEY, Document, DocumentSchema
 from seisblock.references import command_papers
-from seisblock.report.json.scenario import NOTES_KEY, ScenarioParameters, scenario_parameters
+from seisblock.report.json.scenario import ScenarioParameters, scenario_parameters
 from seisblock.studies.scenario.secure import Security
 
 
