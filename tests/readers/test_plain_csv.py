@@ -130,6 +130,15 @@ def test_clock_times_give_interval_and_start(table, form, start, clock):
     assert "first_time_s" not in record.metadata
 
 
+def test_date_that_stays_past_midnight_is_located(tmp_path):
+    """Fractions of a second before the first time were subtracted: "usual step -0.01 s" for one step back by a day."""
+    rows = [f"2024-01-01 {'23:59:59' if i < 50 else '00:00:00'}.{(50 + i) % 100:02d},{i % 7}" for i in range(150)]
+    path = tmp_path / "midnight.csv"
+    path.write_text("time,NS (gal)\n" + "\n".join(rows))
+    with pytest.raises(RecordFormatError, match=r"step from 0\.99 to -86399 s, usual step 0\.01 s"):
+        read(path)
+
+
 def test_mg_and_fortran_exponents_are_read(table):
     """``mg`` is a thousandth of g, in a name, in a line of units and as an option; ``1.5D-03`` is 1.5e-3."""
     for text, options in (

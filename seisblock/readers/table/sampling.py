@@ -87,7 +87,9 @@ def seconds_replacer(index: int, separator: str | None, first: Timestamp) -> Cal
             return line
         # a time of day before the first one belongs to the next day
         elapsed_s = timestamp.seconds - first.seconds
-        cells[index] = f"{elapsed_s if first.has_date else elapsed_s % DAY_S}.{timestamp.fraction}"
+        elapsed_s = elapsed_s if first.has_date else elapsed_s % DAY_S
+        fraction = f".{timestamp.fraction}"
+        cells[index] = f"{elapsed_s}{fraction}" if elapsed_s >= 0 else str(elapsed_s + float(f"0{fraction}"))
         return (separator or " ").join(cells)
 
     return replace_cell
