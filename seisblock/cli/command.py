@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import json
 import math
 import textwrap
 import tomllib
@@ -56,9 +57,11 @@ def read_option_file(path: Path, command: click.Command) -> dict[str, Any]:
             text = gettext("{file}: {command} has no option {name}", file=str(path), command=command.name, name=f"--{name}")
             raise click.UsageError(did_you_mean(text, closest_name(name, parameters)))
         parameter = parameters[name]
-        if isinstance(value, bool) and not parameter.is_flag:
+        if isinstance(value, bool) != parameter.is_flag:
             text = N_("{file}: --{name} requires a value, found {value}")
-            raise click.UsageError(gettext(text, file=str(path), name=name, value=str(value).lower()))
+            if parameter.is_flag:
+                text = N_("{file}: --{name} requires true or false, found {value}")
+            raise click.UsageError(gettext(text, file=str(path), name=name, value=json.dumps(value, ensure_ascii=False, default=str)))
         switch_off = f"--{name}" in parameter.secondary_opts
         options[parameter.name or name] = not value if switch_off else _value(parameter, value)
     return options

@@ -53,6 +53,8 @@ def test_table_of_the_command_is_read_from_a_common_file(tmp_path):
         ("width = ", "Invalid value"),
         ("width = 'wide'", "wide"),
         ("mu = true", "wrong.toml: --mu requires a value, found true"),
+        ("no-vertical = 'no'", '--no-vertical requires true or false, found "no"'),
+        ("details = 1", "--details requires true or false, found 1"),
         ("runs = 20.5", "'20.5' is not a valid integer."),
         ("help = true", "respond has no option --help"),
     ],
