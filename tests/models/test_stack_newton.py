@@ -32,7 +32,7 @@ from seisblock.models.stack.constraint_row import (
     set_delassus_block,
 )
 from seisblock.models.stack.newton import GRADIENT, STEP, WORK_COLUMNS, solve_newton
-from seisblock.models.stack.pgs import solve_pgs
+from seisblock.models.stack.pgs import solve_pgs, sweep_impact
 from seisblock.models.stack.recorder import SOLVED, UNCONVERGED
 from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
@@ -267,6 +267,26 @@ def test_convex_method_starts_from_the_impulses_of_all_laws():
         steps.append(solve_newton(len(rows), ids, rows, 20, masses, inverses, TOLERANCE, velocities, blocks, work))
     assert min(steps) > 0
     assert np.mean(steps) < 30
+
+
+@pytest.mark.parametrize("mu", [0.3, 0.7])
+def test_impact_does_not_pass_on_by_one_joint_a_step(mu):
+    """The top of twenty stones at rest is struck: Newton's method takes a step per joint, and a third of these after a sweep."""
+    count, steps = 20, []
+    stones = tuple(PileStone(f"s{i}", SIDE, SIDE, HEIGHT, on="ground" if i == 0 else f"s{i - 1}") for i in range(count))
+    pile = pile_arrays(Pile("tower", stones, mu=mu), None, 2)
+    for is_swept in (False, True):
+        ids, rows, masses, inverses, velocities = tower(np.random.default_rng(1), count, mu)
+        rows[:, CONE_CENTRE : CONE_CENTRE + 3], rows[:, MU] = 0.0, mu
+        velocities[:] = 0.0
+        velocities[count - 1, 2] = -0.5
+        memory = pile.memory()._replace(contact_ids=ids, constraint_rows=rows, inverses=inverses, body_velocities=velocities)
+        if is_swept:
+            sweep_impact(len(rows), count, pile.layout._replace(inertias=masses), memory)
+        scratch = memory.newton_blocks, memory.newton_bodies
+        steps.append(solve_newton(len(rows), ids, rows, count, masses, inverses, TOLERANCE, velocities, *scratch))
+    assert steps[0] > count
+    assert 0 < steps[1] < count / 3
 
 
 @pytest.mark.parametrize("count", [5, 14])

@@ -598,8 +598,10 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
                 law_error, _linearise(row, proximity, u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2])
             )
             p0, p1, p2 = row[PROJECTED] - row[IMPULSE], row[PROJECTED + 1] - row[IMPULSE + 1], row[PROJECTED + 2] - row[IMPULSE + 2]
-            error += (row[W] + row[W + 4] + row[W + 8]) * (p0 * p0 + p1 * p1 + p2 * p2)
-            apply_impulse(a, b, ground, inertias, row, p0, p1, p2, work)
+            # an open contact without an impulse
+            if p0 != 0.0 or p1 != 0.0 or p2 != 0.0:
+                error += (row[W] + row[W + 4] + row[W + 8]) * (p0 * p0 + p1 * p1 + p2 * p2)
+                apply_impulse(a, b, ground, inertias, row, p0, p1, p2, work)
         for i in range(n):
             u0, u1, u2 = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], rows[i], work)
             change = max(change, max(abs(u0), max(abs(u1), abs(u2))))

@@ -181,6 +181,16 @@ def _relax_contact(a, b, ground, inertias, row, minimise_energy, velocities):
     return (abs(q0) + abs(q1) + abs(q2)) * max(row[W], max(row[W + 4], row[W + 8]))
 
 
+@kernel(_t.void(_t.int64, _t.int64, LAYOUT, MEMORY))
+def sweep_impact(count, n, pile, memory):
+    """Estimate the impulses of an impact by a sweep up and down the contacts: Newton's method would pass it on by one joint a step."""
+    if count > MIN_NEWTON_CONTACTS:
+        for k in range(2 * count):
+            i = k if k < count else 2 * count - 1 - k
+            a, b = memory.contact_ids[i, 0], memory.contact_ids[i, 1]
+            _relax_contact(a, b, n, pile.inertias, memory.constraint_rows[i], False, memory.body_velocities)
+
+
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, _t.float64, MATRIX))
 def solve_pgs(n, contact_ids, rows, ground, inertias, target, tolerance, velocities):
     """Solve the impulses of `n` contacts by projected Gauss-Seidel sweeps; return their number, or 0 and the initial state if they fail.

@@ -29,7 +29,7 @@ from seisblock.models.stack.constraint_row import ARM_A, ARM_B, GAP, GYROSCOPIC,
 from seisblock.models.stack.frames import INVERSE, F, L, R, T, V
 from seisblock.models.stack.friction import SLIP_THRESHOLD, max_turn_time, record_slip, set_friction_cones, sliding_velocity, solve_friction
 from seisblock.models.stack.narrow_phase import find_contacts
-from seisblock.models.stack.pgs import TOLERANCE, UNCONVERGED_RATIO, impulse_work, solve_contacts
+from seisblock.models.stack.pgs import TOLERANCE, UNCONVERGED_RATIO, impulse_work, solve_contacts, sweep_impact
 from seisblock.models.stack.sleeping import can_support, put_to_sleep, wake
 from seisblock.models.stack.spring_contact import CACHED_FORCE, CACHED_SLIDING, PREVIOUS_FORCE
 from seisblock.models.stack.time_of_impact import (
@@ -158,6 +158,7 @@ def _solve_impacts(count, n, time_before, pile, memory):
         if not detect_impacts(count, memory):
             break
         rows = add_restitution_rows(count, n, pile, memory)
+        sweep_impact(rows, n, pile, memory)
         solve_contacts(rows, n, tolerance, pile, memory)
         # plastic impulses cannot create energy: only the rows added for a restitution are tested
         if (
