@@ -24,14 +24,14 @@ def types() -> Any:
     return numba_types
 
 
-def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> Callable[[Function], Function]:
+def kernel(signature: Any, *, inline: bool = False) -> Callable[[Function], Function]:
     """Compile a function on first use for one explicit signature, cached, without the GIL and without ``fastmath``.
 
-    `inline` asks LLVM to inline the kernel into its callers: eight calls with named tuples of arrays cost 0.3 us. `allocates` permits
-    ``np.zeros`` and the like; without it slices need no reference counting, which costs a short kernel 30 to 60 ns per call.
+    `inline` asks LLVM to inline the kernel into its callers: eight calls with named tuples of arrays cost 0.3 us. A kernel creates no
+    arrays: references are not counted, which would cost a short kernel 30 to 60 ns per call.
     """
     # error_model numpy: division by zero gives inf or NaN, without a test at each division
-    options = {"nogil": True, "error_model": "numpy", "forceinline": inline} | ({} if allocates else {"_nrt": False})
+    options = {"nogil": True, "error_model": "numpy", "forceinline": inline, "_nrt": False}
     return lambda function: LazyKernel(function, signature, options) if ENABLED else function  # type: ignore[return-value]
 
 

@@ -18,7 +18,7 @@ from numba import _dynfunc
 from numba.core import codegen, compiler, errors, ir, types
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.compiler_machinery import FunctionPass, register_pass
-from numba.core.typed_passes import AnnotateTypes, IRLegalization, NativeLowering, NoPythonBackend, NopythonTypeInference
+from numba.core.typed_passes import AnnotateTypes, NativeLowering, NoPythonBackend, NopythonTypeInference
 from numba.core.untyped_passes import FixupArgs, TranslateByteCode
 
 from seisblock._jit.lowering import CalleeLower, KernelLower, call_kernel
@@ -155,11 +155,9 @@ class KernelCompiler(compiler.CompilerBase):  # type: ignore[misc]
     lowering: Any = KernelLowering
 
     def define_pipelines(self) -> list[Any]:
-        """Return the passes; only memory that is reference-counted needs ``IRLegalization``, which ends the life of each variable."""
+        """Return the passes; no variable is reference-counted, and none needs an end of its life."""
         manager = compiler.PassManager("kernel")
-        passes = [TranslateByteCode, FixupArgs, ConstantRewrites, NopythonTypeInference]
-        passes += [IRLegalization] if self.state.flags.nrt else []
-        for step in [*passes, AnnotateTypes, self.lowering, NoPythonBackend]:
+        for step in (TranslateByteCode, FixupArgs, ConstantRewrites, NopythonTypeInference, AnnotateTypes, self.lowering, NoPythonBackend):
             manager.add_pass(step)
         manager.finalize()
         return [manager]

@@ -25,13 +25,12 @@ class KernelLower(Lower):  # type: ignore[misc]
     """
 
     def lower_getitem(self, resty: Any, expr: Any, value: Any, index: Any, signature: Any) -> Any:
-        """Load an item or view a row; other containers, slices and views that are reference-counted are left to numba."""
+        """Load an item or view a row; other containers and slices are left to numba."""
         address = self._address(value.name, index.name)
-        is_view = isinstance(resty, types.Array)
-        if address is None or (is_view and self.context.enable_nrt):
+        if address is None:
             return super().lower_getitem(resty, expr, value, index, signature)
         array, size = self.typeof(value.name), self.context.get_constant(types.intp, 1)
-        if not is_view:
+        if not isinstance(resty, types.Array):
             return self.context.cast(self.builder, self.context.unpack_value(self.builder, array.dtype, address), array.dtype, resty)
         descriptor, view = self.loadvar(value.name), self.context.get_constant_undef(resty)
         for name in ("meminfo", "parent", "itemsize"):
