@@ -299,9 +299,11 @@ def _load_options(options: ReadOptions) -> ReadOptions:
 def _as_list(locations: Location | Iterable[Location]) -> list[Location]:
     if isinstance(locations, (str, PathLike)):
         return [locations]
-    if not isinstance(locations, Iterable):
-        raise KindError("expected a path or a list of paths, found {found}", found=checks.type_name(locations))
-    return list(locations)
+    items = list(locations) if isinstance(locations, Iterable) else [locations]
+    if not all(isinstance(item, (str, PathLike)) for item in items):
+        text = "expected a path or a list of paths, found {found}; for arrays use Record.from_arrays"
+        raise KindError(text, found=checks.type_name(locations))
+    return items
 
 
 def _check_duplicates(names: Sequence[str]) -> None:

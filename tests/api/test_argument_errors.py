@@ -153,6 +153,8 @@ def test_functions_require_a_body(name):
         (lambda: sb.studies.mode_map([0.3], None, [0.2], MOTION), "sizes and slendernesses must be numbers, found None"),
         (lambda: sb.studies.rocking_spectrum(["a"], [0.2], MOTION), "sizes and slendernesses must be numbers, found \\['a'\\]"),
         (lambda: sb.read(3), "expected a path or a list of paths, found int"),
+        (lambda: sb.read(np.zeros(3)), "expected a path or a list of paths, found ndarray; for arrays use Record.from_arrays"),
+        (lambda: sb.read(b"time,NS (gal)"), "expected a path or a list of paths, found bytes"),
         (lambda: sb.readers.read_all(None), "expected a path or a list of paths, found None"),
     ],
 )
