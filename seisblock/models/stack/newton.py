@@ -67,9 +67,9 @@ STALLED_ITERATIONS, SOFTENING, MAX_COMPLIANCE, EASY_ITERATIONS = 8, 10.0, 0.3, 3
 """Iterations without a move of the centres after which the compliance rises, by which factor, and up to which value: the active set of many
 sliding contacts settles sooner when they are soft. The compliance then falls only after a move within so few iterations."""
 
-MOVE_RATIO, FIRST_LAW_RATIO, LAW_RATIO = 10.0, 30.0, 3.0
-"""Error of the impulses over that of the penalty at which the centres move; and over that of all laws at which the compliance falls for the
-first time, and again: a stiff law that is not the one of the solution moves the impulses far away."""
+MOVE_RATIO, LAW_RATIO = 10.0, 3.0
+"""Error of the impulses over that of the penalty at which the centres move, or over that of all laws at which their compliance falls for
+the first time; and at which it falls again: a stiff law that is not the one of the solution moves the impulses far away."""
 
 SLOPE_RATIO, MAX_EXTENSION, MAX_TRIALS = 0.3, 16.0, 12
 """Line search: slope over the first one at which it ends, largest step, and number of trials."""
@@ -631,7 +631,7 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
                 row[IMPULSE + 2] += p2
                 apply_impulse(contact_ids[i, 0], contact_ids[i, 1], ground, inertias, row, p0, p1, p2, velocities)
             continue
-        factor, ratio = 1.0, LAW_RATIO if proximity < 0.5 * FIRST_PROXIMITY else FIRST_LAW_RATIO
+        factor, ratio = 1.0, LAW_RATIO if proximity < 0.5 * FIRST_PROXIMITY else MOVE_RATIO
         # the laws that act have settled: what is left is the velocity that the proximity leaves
         if length == 1.0 and law_error > ACCURACY * tolerance and change < ratio * law_error and proximity > MIN_PROXIMITY:
             factor = PROXIMITY_FACTOR
