@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property, partial
 from operator import eq
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
@@ -185,6 +185,13 @@ class Histories:
     channels: tuple[Channel, ...] = ()
 
 
+def _lock(values: FloatArray) -> FloatArray:
+    """Return a time history as a read-only, C-contiguous array, copied only if it is a column of a table."""
+    locked = np.ascontiguousarray(values).view()
+    locked.flags.writeable = False
+    return locked
+
+
 def constant_histories(histories: Histories) -> Histories:
     """Return the histories unchanged; replaces ``make_histories`` in a response pickled by another process."""
     return histories
@@ -235,8 +242,10 @@ class Response(PlotMixin, Generic[Outcome]):
 
     @cached_property
     def histories(self) -> Histories:
-        """Time axis and channels, computed on first access."""
-        return self.make_histories()
+        """Time axis and channels, read-only, computed on first access."""
+        histories = self.make_histories()
+        channels = (replace(channel, values=_lock(channel.values)) for channel in histories.channels)
+        return Histories(_lock(histories.time), tuple(channels))
 
     @property
     def time(self) -> FloatArray:

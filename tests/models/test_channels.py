@@ -84,3 +84,13 @@ def test_channels_of_one_name_have_one_sign(response):
     if "angular_velocity" in {channel.name for channel in response.channels}:
         pushed = np.flatnonzero(response["rotation"])[:5]
         assert (response["angular_velocity"][pushed] <= 0.0).all()
+
+
+def test_histories_cannot_be_changed_by_accident(response):
+    """Time and channels are read-only float64 arrays without gaps in memory."""
+    for values in (response.time, *(channel.values for channel in response.channels)):
+        assert not values.flags.writeable
+        assert values.flags.c_contiguous
+        assert values.dtype == np.float64
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 1.0
