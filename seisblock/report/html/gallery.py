@@ -91,7 +91,7 @@ def gallery(results: Sequence[CaseResult]) -> str:
         "gallery.html",
         gettext("Validation: published and computed values"),
         subtitles=[
-            gettext("Computed by `seisblock validate` on this machine. Tolerance: half the last printed digit, round-off, or as stated.")
+            gettext("Computed by seisblock validate on this machine. Tolerance: half the last printed digit, round-off, or as stated.")
         ],
         lead=_summary(results),
         columns=[gettext(name) for name in COLUMNS],
