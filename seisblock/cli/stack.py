@@ -36,8 +36,9 @@ VARIED_PARAMETERS = ("size", "inset", "mu", "amplitude", "azimuth")
 PILE_RUNS = 20
 """Default number of samples, each of which costs as much as the run itself."""
 
-MAX_STONE_SECONDS = 300.0
-"""Largest product of stones and seconds of the record up to which a pile has samples by default: the answer then takes seconds."""
+MAX_SAMPLED_WORK, SPRINGS_WORK = 9000.0, 6.0
+"""Largest square of the number of stones times seconds of the record up to which a pile has samples by default: five stones for six minutes
+take five seconds; and factor on it with springs."""
 
 MAX_GRID = 29
 """Coarsest grid of the criterion study: one height is left."""
@@ -230,7 +231,7 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
                 responses.append(solve_stack(body, motion, **replace(options, progress=advance).keywords()))
             trim_heap()  # memory freed by the compiler is needed for long records
             extra: dict[str, Any] = {}
-            count = runs if is_requested or _is_quick(body, motion) else 0
+            count = runs if is_requested or _is_quick(body, motion, options) else 0
             if runs and not count:
                 text = N_(
                     "no samples by default of {stones} stones over {seconds:.0f} s: give --runs {runs} for the probability of falling"
@@ -248,9 +249,10 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
     write_assessed(document(responses, extras), output, responses, extras, lambda: tables(responses, extras, gal=output.gal))
 
 
-def _is_quick(body: Pile, motion: Motion) -> bool:
-    """Return whether the samples of a pile take seconds: those of one stone, or of few stones under a short record."""
-    return len(body.stones) == 1 or len(body.stones) * motion.samples * motion.dt <= MAX_STONE_SECONDS
+def _is_quick(body: Pile, motion: Motion, options: StackOptions) -> bool:
+    """Return whether the samples of a pile take seconds: those of one stone, or of few stones."""
+    work = len(body.stones) ** 2 * motion.samples * motion.dt * (1.0 if options.contact is None else SPRINGS_WORK)
+    return len(body.stones) == 1 or work <= MAX_SAMPLED_WORK
 
 
 def _run_study(

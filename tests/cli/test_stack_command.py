@@ -118,12 +118,12 @@ def test_stack_runs_reports_share_per_stone(pulse):
     assert refused.exit_code == 3 and "--runs has no effect with --criterion" in refused.stderr
 
 
-def test_stack_default_samples_end_beyond_stone_seconds(monkeypatch):
-    """Five stones over 1.01 s: samples by default up to their product, a line and none below it, samples there on request."""
+def test_stack_default_samples_end_beyond_a_limit_of_work(monkeypatch):
+    """Five stones over 1.01 s: samples by default up to 25 times it, a line and none below it, samples there on request."""
     arguments = ["stack", "--stones", "wagata", "--window", "24:25", "--json"]
     runner = CliRunner()
-    for limit, options, runs in ((5.06, [], 20), (5.04, [], None), (5.04, ["--runs", "2"], 2)):
-        monkeypatch.setattr("seisblock.cli.stack.MAX_STONE_SECONDS", limit)
+    for limit, options, runs in ((25.3, [], 20), (25.2, [], None), (25.2, ["--runs", "2"], 2), (150.0, ["--law", "springs"], None)):
+        monkeypatch.setattr("seisblock.cli.stack.MAX_SAMPLED_WORK", limit)
         result = runner.invoke(main, [*arguments, *options])
         (row,) = json.loads(result.stdout)["results"]
         assert row.get("assessment", {}).get("runs") == runs
