@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 import numpy as np
 
 from seisblock.core._display import DisplayMixin, PlotMixin, summary_repr
+from seisblock.core.arrays import readonly_view
 from seisblock.core.backends import backend
 from seisblock.core.status import Status
 from seisblock.core.typing import FloatArray, IntArray
@@ -185,13 +186,6 @@ class Histories:
     channels: tuple[Channel, ...] = ()
 
 
-def _lock(values: FloatArray) -> FloatArray:
-    """Return a time history as a read-only, C-contiguous array, copied only if it is a column of a table."""
-    locked = np.ascontiguousarray(values).view()
-    locked.flags.writeable = False
-    return locked
-
-
 def constant_histories(histories: Histories) -> Histories:
     """Return the histories unchanged; replaces ``make_histories`` in a response pickled by another process."""
     return histories
@@ -244,8 +238,8 @@ class Response(PlotMixin, Generic[Outcome]):
     def histories(self) -> Histories:
         """Time axis and channels, read-only, computed on first access."""
         histories = self.make_histories()
-        channels = (replace(channel, values=_lock(channel.values)) for channel in histories.channels)
-        return Histories(_lock(histories.time), tuple(channels))
+        channels = (replace(channel, values=readonly_view(channel.values)) for channel in histories.channels)
+        return Histories(readonly_view(histories.time), tuple(channels))
 
     @property
     def time(self) -> FloatArray:

@@ -13,12 +13,13 @@ from collections.abc import Callable
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core.arrays import readonly
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_ANALYTIC_SAMPLES, check_limit
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import ACCELERATION_UNITS, LENGTH_UNITS, VELOCITY_UNITS, parse_quantity, to_halfwidth
-from seisblock.records.record import Component, Record, readonly
+from seisblock.records.record import Component, Record
 
 ANALYTIC = "analytic"
 """Format of the record of an analytic motion."""

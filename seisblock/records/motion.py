@@ -11,11 +11,12 @@ import numpy as np
 from seisblock.core import checks
 from seisblock.core._display import PlotMixin
 from seisblock.core._warnings import called_externally, warn_external
+from seisblock.core.arrays import as_readonly, readonly
 from seisblock.core.errors import ComponentError, ParameterError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import ArrayLike, FloatArray
 from seisblock.records.qc import IMPLAUSIBLE_PGA
-from seisblock.records.record import Component, Record, as_readonly, readonly
+from seisblock.records.record import Component, Record
 from seisblock.records.rotation import acceleration_at_azimuth, azimuth_projection, oriented_pair
 
 ALONG: Final = 0

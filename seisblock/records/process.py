@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core.arrays import readonly
 from seisblock.core.errors import ComponentError, ParameterError, RecordError
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.jma_scale import parse_jma_intensity
@@ -16,7 +17,7 @@ from seisblock.core.units import GAL
 from seisblock.records.crop_history import CROP_HISTORY
 from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.qc_flags import drop_resolved
-from seisblock.records.record import Component, Record, readonly
+from seisblock.records.record import Component, Record
 from seisblock.records.rotation import acceleration_at_azimuth, oriented_pair
 from seisblock.records.seismic_intensity import jma_intensity, missing_intensity_reason
 

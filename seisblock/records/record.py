@@ -11,6 +11,7 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin, PlotMixin
+from seisblock.core.arrays import as_readonly
 from seisblock.core.backends import backend
 from seisblock.core.errors import ComponentError, KindError, RecordError
 from seisblock.core.i18n import lazy_gettext
@@ -26,22 +27,6 @@ VERTICAL = "UD"
 
 MAX_ACCELERATION = 1e9
 """Largest accepted acceleration, m/s^2; keeps squares of samples within the range of floating-point numbers."""
-
-
-def as_readonly(values: ArrayLike) -> FloatArray:
-    """Return `values` as a read-only, C-contiguous float64 array, copied only when it must be."""
-    array = np.ascontiguousarray(values, dtype=np.float64)
-    if array.flags.writeable:
-        # a view protects a fresh conversion; an array of the caller is copied before it is locked
-        array = array.view() if array is not values else array.copy()
-        array.flags.writeable = False
-    return array
-
-
-def readonly(array: FloatArray) -> FloatArray:
-    """Mark an array as read-only and return it; the caller must hold the only reference."""
-    array.flags.writeable = False
-    return array
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from seisblock.core.arrays import readonly
 from seisblock.core.errors import ComponentError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.records.record import Component, Record, readonly
+from seisblock.records.record import Component, Record
 
 
 def oriented_pair(record: Record) -> tuple[Component, Component]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
 from seisblock.bodies.spring_factory import spring_block
+from seisblock.core.arrays import as_readonly
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_CELLS, check_limit
@@ -19,7 +20,6 @@ from seisblock.core.typing import ArrayLike, FloatArray, Progress
 from seisblock.models.uplift.harmonic import uplift_thresholds
 from seisblock.models.uplift.minima import UpliftMinimum, lowest_uplift_threshold, uplift_minima
 from seisblock.models.uplift.modes import Modes, natural_modes
-from seisblock.records.record import as_readonly
 
 PAPER_RATIOS: dict[str, tuple[float, ...]] = {
     "alpha": (1.0,),

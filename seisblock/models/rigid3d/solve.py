@@ -13,6 +13,7 @@ from seisblock.bodies.body_name import body_name
 from seisblock.bodies.convex import ConvexBody, convex_body
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.scan.scan import Scan
+from seisblock.core.arrays import readonly
 from seisblock.core.errors import SolverError
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.options import keywords_of
@@ -27,7 +28,6 @@ from seisblock.models.rigid3d.params import initial_state, rigid_body
 from seisblock.models.rigid3d.run import run_rigid3d, start_run
 from seisblock.records._validation import validate_inputs, validate_motion, vertical_gain
 from seisblock.records.motion import Motion
-from seisblock.records.record import readonly
 from seisblock.references import papers
 
 Body = Block | ScannedBody | Scan | ConvexBody

@@ -9,9 +9,9 @@ import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock, mass_matrix, stiffness_matrix
 from seisblock.core import checks
+from seisblock.core.arrays import as_readonly
 from seisblock.core.i18n import N_
 from seisblock.core.typing import FloatArray
-from seisblock.records.record import as_readonly
 
 UNCOUPLED_COORDINATES = {
     (N_("first rocking in x-z"), N_("second rocking in x-z")): (0, 4),

@@ -33,8 +33,8 @@ def draw_curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap:
     if longest_gap is not None:
         gaps = np.flatnonzero(np.abs(np.diff(time)) > longest_gap) + 1
         time, values = np.insert(time, gaps, time[gaps]), np.insert(values, gaps, np.nan)
-    shown = (time, values) if axis.get_autoscalex_on() else in_view(time, values, *axis.get_xlim())
-    (line,) = axis.plot(*shown, **{"linewidth": 0.9, **style})
+    points = (time, values) if axis.get_autoscalex_on() else in_view(time, values, *axis.get_xlim())
+    (line,) = axis.plot(*points, **{"linewidth": 0.9, **style})
 
     def show(panel: Axes) -> None:
         line.set_data(*decimate(*in_view(time, values, *panel.get_xlim())))

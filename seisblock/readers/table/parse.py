@@ -8,12 +8,12 @@ from math import isfinite
 
 import numpy as np
 
+from seisblock.core.arrays import readonly
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.limits import CHUNK_SIZE
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import ACCELERATION_UNITS
 from seisblock.readers.lines import iter_chunks, line_error
-from seisblock.records.record import readonly
 
 _DECIMAL_SHIFTS = {0.01: 2, 1e-3: 3}
 """Decimal places between a unit and m/s^2."""
