@@ -127,7 +127,7 @@ def formats(_: str) -> str:
 
 
 def gallery(_: str) -> str:
-    """Return every figure of the pages: thumbnails, then each with title, caption, the page that explains it and the command that draws it."""
+    """Return every figure of the pages: thumbnails, then each with title, caption, page and command."""
     thumbnails, parts = [], []
     for page in sorted(DOCS.rglob("*.md"), key=lambda path: ("ja" in path.parts, path)):
         text, where = page.read_text(encoding="utf-8"), page.relative_to(DOCS)
