@@ -44,14 +44,14 @@ def parse_jst(text: str) -> datetime | None:
 
 
 def parse_coordinates(text: str) -> tuple[float | None, float | None]:
-    """Return latitude and longitude in a text, degrees north and east; None where missing.
+    """Return latitude and longitude in a text, degrees north and east; None where missing, or both if both are zero.
 
     Examples
     --------
     >>> parse_coordinates("STATION NO. 36456   35.908N, 120.458W     SMA-1"), parse_coordinates("none")
     ((35.908, -120.458), (None, None))
-    >>> parse_coordinates("Site X  42 31 12S  172 49 48E")
-    (-42.52, 172.83)
+    >>> parse_coordinates("Site X  42 31 12S  172 49 48E"), parse_coordinates("STATION NO.  0.000N    0.000E  QDR")
+    ((-42.52, 172.83), (None, None))
     """
     degrees_by_letter: dict[str, float] = {}
     for degrees, minutes, seconds, letter in _SEXAGESIMAL.findall(text):
@@ -61,7 +61,8 @@ def parse_coordinates(text: str) -> tuple[float | None, float | None]:
         degrees_by_letter.setdefault(letter.upper(), float(degrees))
     latitude = degrees_by_letter["N"] if "N" in degrees_by_letter else -degrees_by_letter["S"] if "S" in degrees_by_letter else None
     longitude = degrees_by_letter["E"] if "E" in degrees_by_letter else -degrees_by_letter["W"] if "W" in degrees_by_letter else None
-    return latitude, longitude
+    # recorders without a position print zeros
+    return (latitude, longitude) if latitude or longitude else (None, None)
 
 
 def parse_datetime(text: str) -> tuple[datetime | None, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import zipfile
 from datetime import UTC, datetime
 
@@ -70,8 +71,9 @@ def test_read_bhrc(tmp_path):
 
 
 def test_read_renadic_with_even_times(tmp_path):
-    """Pairs at even times are read as they are; a station without a number has none."""
+    """Pairs at even times are read as they are; a station without a number has none, places of zeros are no places."""
     record = read(written(tmp_path, world.renadic(ROWS)))
+    assert not [key for key in record.metadata if "latitude" in key or "longitude" in key or "depth" in key]
     assert_equal_gal(record, {"NS": NORTH, "EW": EAST, "UD": UP}, 0.5e-3 * TENTH_G + 1e-9)
     assert (record.dt, record.station, record.history) == (DT, "", ())
     assert record.doubts == ()
@@ -403,3 +405,58 @@ def test_brackets_that_are_neither_unit_nor_direction_are_rejected(tmp_path):
     path.write_text("time (s),NS (inverted) (gal)\n0.00,1\n0.01,2\n")
     with pytest.raises(RecordFormatError, match="'\\(inverted\\)'"):
         read(path)
+
+
+def afad_esm(row: np.ndarray, letter: str, *, start: str = "2020/01/02 03:04:05.250000", data: str = "Acceleration") -> str:
+    """Return one component as AFAD writes the layout of ESM since about 2020."""
+    text = layouts.esm(row, stream=f"HN{letter}", data=data)
+    changes = {
+        "EVENT_DATE_YYYYMMDD": "2020/01/02",
+        "EVENT_TIME_HHMMSS": "03:04:00.00000",
+        "STATION_NAME": "",
+        "LOCATION": "Synthetic_Merkez_Turkiye",
+        "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS": start,
+        "DURATION_S": "",
+        "PGA_CM/S^2": f"{np.abs(np.round(row, 6)).max():.3f}",
+        "TIME_PGA_S": "",
+    }
+    for key, value in changes.items():
+        text = re.sub(rf"^{re.escape(key)}:.*$", f"{key}: {value}", text, flags=re.MULTILINE)
+    return text.replace("USER5:", "DATA_CREATOR: AFAD\nUSER5:")
+
+
+@pytest.mark.parametrize("start", ["2020/01/02 03:04:05.250000", "02/01/2020 03:04:05.250"])
+def test_afad_files_in_the_layout_of_esm(tmp_path, start):
+    """Components are joined by name; peaks have no sign, dates have slashes, LOCATION is the place."""
+    rows = dict(zip("NEU", ROWS, strict=True))
+    # the largest sample of one component is negative
+    assert any(row[np.abs(row).argmax()] < 0.0 for row in rows.values())
+    for letter, row in rows.items():
+        code = {"U": "Z"}.get(letter, letter)
+        written(tmp_path, afad_esm(row, code, start=start).encode(), f"20200102030400_0001_mp_RawAcc_{letter}.asc")
+    record = read(tmp_path / "20200102030400_0001_mp_RawAcc_U.asc")
+    assert (record.codes, record.doubts) == (("NS", "EW", "UD"), ())
+    assert record.start == START_TIME
+    assert record.metadata["origin_time"] == datetime(2020, 1, 2, 3, 4, tzinfo=UTC)
+    assert (record.location, record.metadata["station_name"]) == ("", "Synthetic_Merkez_Turkiye")
+
+
+@pytest.mark.parametrize("kind", ["afad", "esm", "cosmos", "smc"])
+def test_velocities_beside_accelerations_in_an_archive_are_skipped(tmp_path, kind):
+    """Downloads contain velocities, displacements or spectra of the same record; alone they are rejected."""
+    row = ROWS[0]
+    acceleration, velocity = {
+        "afad": (afad_esm(row, "N"), afad_esm(row, "N", data="Velocity")),
+        "esm": (layouts.esm(row, stream="HNN"), layouts.esm(row, stream="HNN", data="ACCELERATION RESPONSE SPECTRUM")),
+        "cosmos": (layouts.cosmos(row), layouts.cosmos(row, title="Velocity data")),
+        "smc": (layouts.smc(row), layouts.smc(row).replace("CORRECTED ACCELEROGRAM", "VELOCITY")),
+    }[kind]
+    path = tmp_path / "download.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("a_vel.asc", velocity)
+        archive.writestr("b_acc.asc", acceleration)
+    record = read(path)
+    assert len(record.components) == 1
+    np.testing.assert_allclose(record.components[0].acceleration, row / 100.0, atol=1e-4)
+    with pytest.raises(RecordFormatError):
+        read(written(tmp_path, velocity.encode(), "a_vel.asc"))

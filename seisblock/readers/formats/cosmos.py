@@ -142,10 +142,14 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> tuple[_ChannelB
 
 def _check_quantity(name: str, quantity: str) -> None:
     """Raise if the quantity of a channel is not acceleration."""
+    word = _unsupported_quantity(quantity)
+    if word is not None:
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED[word]))
+
+
+def _unsupported_quantity(quantity: str) -> str | None:
     stated_quantity = re.sub(r"^(?:un)?corrected\s+", "", quantity.strip().lower())
-    reason = next((reason_text for word, reason_text in _UNSUPPORTED.items() if stated_quantity.startswith(word)), None)
-    if reason is not None:
-        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(reason))
+    return next((word for word in _UNSUPPORTED if stated_quantity.startswith(word)), None)
 
 
 def _line_text(lines: Sequence[str], index: int) -> str:
@@ -250,6 +254,12 @@ def _qc_flags(code: str, block: _ChannelBlock, dt: float) -> tuple[QCFlag, ...]:
     return flags + flag_duration(f"{length:g}", block.samples.size, dt, 1.5 * dt + 0.05) if length > 0.0 else flags
 
 
+def _is_derived(head: bytes) -> bool:
+    """Return whether a COSMOS file has velocities or displacements."""
+    title = _TITLE_LINE.match(head)
+    return title is not None and _unsupported_quantity(title[1].decode("latin-1")) in ("velocity", "displacement")
+
+
 def _recording_key(head: bytes) -> object:
     lines = [*head.decode("latin-1").splitlines(), *[""] * (CHANNEL + 1)]
     start_text = re.sub(r"\s*RcrdId.*", "", lines[START_TIME])
@@ -261,6 +271,7 @@ FORMAT = register(
         name="COSMOS",
         parse=read_cosmos,
         matches=is_cosmos,
+        is_derived=_is_derived,
         proves=("count", "peak", "clock", "unit", "sign", "instrument"),
         synchronous=True,
         file_set=seed_file_set,

@@ -213,6 +213,7 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
     )
     places = dict(zip(("station_latitude_deg", "station_longitude_deg"), parse_coordinates(station), strict=True))
     places |= dict(zip(("event_latitude_deg", "event_longitude_deg"), parse_coordinates(hypocentre), strict=True))
+    depth = parse_number(search_group(r"\bH\s*=\s*([\d.]+)\s*KM", hypocentre).rstrip("."))
     # entries of one header line are separated by three blanks or more
     has_name = not re.match(r"\s*(?:record|rcrd) of", event, re.IGNORECASE)
     clocks = [word for word in re.findall(r"\b[A-Z]{3,4}\b", f"{event} {origin} {trigger}") if word in UTC_OFFSETS and word != "UTC"]
@@ -221,7 +222,8 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
             "station_name": re.split(r"\s{3,}", name.strip())[0],
             "event_name": re.split(r"\s{3,}", event.strip())[0] if has_name else "",
             **places,
-            "event_depth_km": parse_number(search_group(r"\bH\s*=\s*([\d.]+)\s*KM", hypocentre).rstrip(".")),
+            # a depth of zero without a position is unknown
+            "event_depth_km": depth if depth or places["event_latitude_deg"] is not None else None,
             **parse_magnitude(hypocentre),
             "origin_time": parse_datetime(origin)[0],
             "clock": clocks[0] if clocks else "UTC",

@@ -1,4 +1,8 @@
-"""ESM (Engineering Strong-Motion database) ASCII: one component, 64 header lines ``KEY: value``, one sample per line."""
+"""ESM (Engineering Strong-Motion database) ASCII: one component, 64 header lines ``KEY: value``, one sample per line.
+
+AFAD (Turkey) writes the same layout since about 2020: dates with slashes, the year or the day first, a peak without its sign, the place of
+the station as LOCATION.
+"""
 
 from __future__ import annotations
 
@@ -14,17 +18,22 @@ from seisblock.readers._header_check import flag_duration, flag_peak_mismatch, h
 from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import line_error
-from seisblock.readers.registry import Format, register
+from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import require_unit
 from seisblock.readers.table.parse import parse_columns, to_si
 from seisblock.records import QCFlag, Record
 
 _KEY = re.compile(r"([A-Z][A-Z0-9_/^]*):(?:\s(.*))?\Z")
+# 20230206011734_4615_mp_RawAcc_E.asc
+_AFAD_NAME = re.compile(r"(?P<before>.*_(?:Raw)?Acc_)(?P<code>[NEUZ])(?P<after>\.asc)\Z", re.IGNORECASE)
 _MAX_HEADER_LINES = 100
 """Number of lines searched for the end of the header (64 lines)."""
 
-_TEXTS = {"station_name": "STATION_NAME", "event_name": "EVENT_NAME", "network": "NETWORK"}
+_MAX_LOCATION_CODE = 2
+"""Letters of a SEED location code; a longer LOCATION is the place of the station."""
+
+_TEXTS = {"event_name": "EVENT_NAME", "network": "NETWORK"}
 _NUMBERS = {
     "event_latitude_deg": "EVENT_LATITUDE_DEGREE",
     "event_longitude_deg": "EVENT_LONGITUDE_DEGREE",
@@ -71,7 +80,7 @@ def read_esm(blob: RawFile) -> Record:
     direction = parse_direction(stream) or Direction(stream.upper() or "H1")
     component, history = make_component(direction, to_si(values, unit), stream)
     code, start = (_get_value(blob.name, header, key)[1] for key in ("STATION_CODE", "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS"))
-    metadata = {"unit": unit, **_metadata(header), "location": header.get("LOCATION", (0, ""))[1]}
+    metadata = {"unit": unit, **_metadata(header)}
     metadata |= {"channels": {direction.code: stream.upper()}} if stream else {}
     flags = _qc_flags(direction.code, header, values, unit_text, dt)
     # the last sample has fewer decimals than the previous one and no line end
@@ -106,8 +115,9 @@ def _get_value(name: str, header: Header, key: str) -> tuple[int, str]:
 
 
 def _parse_time(text: str) -> datetime | None:
-    """Return the UTC time of ``20190728_160919.870``, or None."""
-    match = re.fullmatch(r"(\d{4})(\d\d)(\d\d)_?(\d\d)(\d\d)(\d\d(?:\.\d+)?)", text.strip())
+    """Return the UTC time of ``20190728_160919.870``, ``2023/02/06 01:17:07.365`` or ``06/02/2023 01:17:07.365``, or None."""
+    text = re.sub(r"^(\d\d)/(\d\d)/(\d{4})", r"\3/\2/\1", text.strip())
+    match = re.fullmatch(r"(\d{4})/?(\d\d)/?(\d\d)[_ ]?(\d\d):?(\d\d):?(\d\d(?:\.\d+)?)", text)
     if match is None:
         return None
     year, month, day, hour, minute = (int(part) for part in match.groups()[:5])
@@ -116,13 +126,17 @@ def _parse_time(text: str) -> datetime | None:
 
 def _metadata(header: Header) -> dict[str, object]:
     entries = {key: value for key, (_, value) in header.items()}
+    location, place = entries.get("LOCATION", ""), entries.get("STATION_NAME", "")
+    if len(location) > _MAX_LOCATION_CODE:
+        location, place = "", place or location
     origin_text = entries.get("EVENT_DATE_YYYYMMDD", "") + "_" + entries.get("EVENT_TIME_HHMMSS", "")
     # moment magnitude before local magnitude
     magnitudes = [parse_number(entries.get(key, "")) for key in ("MAGNITUDE_W", "MAGNITUDE_L")]
-    return drop_missing(
+    return {"location": location} | drop_missing(
         {
             **{key: entries.get(label) for key, label in _TEXTS.items()},
             **{key: parse_number(entries.get(label, "")) for key, label in _NUMBERS.items()},
+            "station_name": place,
             "origin_time": _parse_time(origin_text),
             "magnitude": magnitudes[1] if magnitudes[0] is None else magnitudes[0],
         }
@@ -133,15 +147,27 @@ def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: floa
     """Return flags for peak and duration that differ from the header."""
     key = next((key for key in header if key.startswith("PGA_")), "PGA_CM/S^2")
     peak_text, duration = header.get(key, (0, ""))[1], header.get("DURATION_S", (0, ""))[1]
-    flags = flag_peak_mismatch(code, peak_text, values, unit, 2.0 * half_last_digit(peak_text))
+    signed = header.get("DATA_CREATOR", (0, ""))[1] != "AFAD"
+    flags = flag_peak_mismatch(code, peak_text, values, unit, 2.0 * half_last_digit(peak_text), signed=signed)
     # some files leave the duration empty
     return flags + (flag_duration(duration, values.size, dt) if duration else ())
+
+
+def _is_derived(head: bytes) -> bool:
+    """Return whether an ESM ASCII file has velocities, displacements or spectra."""
+    kind = re.search(rb"^DATA_TYPE:\s*([^\r\n]*)", head, re.MULTILINE) if is_esm(head) else None
+    return kind is not None and kind[1].strip().upper() != b"ACCELERATION"
 
 
 def _recording_key(head: bytes) -> object:
     text = head.decode("latin-1")
     keys = ("STATION_CODE", "LOCATION", "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", "UNITS", "DATA_TYPE")
     return is_esm(head) and [re.findall(rf"^{key}:(.*)$", text, re.MULTILINE) for key in keys]
+
+
+def _file_set(basename: str) -> FileSet | None:
+    match = _AFAD_NAME.match(basename)
+    return FileSet(f"{match['before']}?{match['after']}".lower(), 3, match["code"].upper()) if match else seed_file_set(basename)
 
 
 FORMAT = register(
@@ -151,7 +177,8 @@ FORMAT = register(
         matches=is_esm,
         proves=("count", "peak", "unit", "sign", "instrument"),
         synchronous=True,
-        file_set=seed_file_set,
+        is_derived=_is_derived,
+        file_set=_file_set,
         recording_key=_recording_key,
     )
 )

@@ -71,6 +71,12 @@ def is_smc(head: bytes) -> bool:
     return len(lines) > TEXT and lines[1].strip() == "*" and re.fullmatch(r"(?:\s*-?\d+){8}\s*", lines[TEXT]) is not None
 
 
+def _is_derived(head: bytes) -> bool:
+    """Return whether an SMC file has velocities, displacements or spectra."""
+    title = _TITLE_LINE.match(head)
+    return title is not None and title[1].upper().startswith((b"VELOCITY", b"DISPLACEMENT", b"RESPONSE"))
+
+
 def read_smc(blob: RawFile) -> Record:
     """Return the component in a corrected SMC file.
 
@@ -191,6 +197,7 @@ FORMAT = register(
         name="SMC",
         parse=read_smc,
         matches=is_smc,
+        is_derived=_is_derived,
         proves=("count", "peak", "unit", "sign", "instrument"),
         synchronous=True,
         file_set=smc_file_set,
