@@ -138,8 +138,8 @@ def stack(
 
     Both horizontal components and the vertical one act together; +x of the pile is the component's positive direction, without
     --component that of the first component of the record. Slips are relative to the stone below, m. The response of a pile is chaotic:
-    --runs 100 gives the probability of falling of each stone over samples of pile and motion; by default there are none where the product
-    of stones and seconds exceeds 300.
+    --runs 100 gives the probability of falling of each stone over samples of pile and motion; by default there are none where the square
+    of the number of stones times seconds exceeds 9000, or 1500 with springs.
     """
     from seisblock.bodies.pile.contact import PileContact
     from seisblock.core.errors import ParameterError

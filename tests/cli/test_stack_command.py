@@ -12,6 +12,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 from seisblock.cli import main
+from seisblock.cli.stack import MAX_SAMPLED_WORK, SPRINGS_WORK
 
 KEYS = {"component", "overturned", "overturned_any", "time_s", "max_tilt_rad", "residual_slip_m", "stones"}
 
@@ -122,6 +123,8 @@ def test_stack_default_samples_end_beyond_a_limit_of_work(monkeypatch):
     """Five stones over 1.01 s: samples by default up to 25 times it, a line and none below it, samples there on request."""
     arguments = ["stack", "--stones", "wagata", "--window", "24:25", "--json"]
     runner = CliRunner()
+    limits = f"exceeds {MAX_SAMPLED_WORK:.0f}, or {MAX_SAMPLED_WORK / SPRINGS_WORK:.0f} with springs"
+    assert limits in " ".join(runner.invoke(main, ["stack", "--help"]).stdout.split())
     for limit, options, runs in ((25.3, [], 20), (25.2, [], None), (25.2, ["--runs", "2"], 2), (150.0, ["--law", "springs"], None)):
         monkeypatch.setattr("seisblock.cli.stack.MAX_SAMPLED_WORK", limit)
         result = runner.invoke(main, [*arguments, *options])
