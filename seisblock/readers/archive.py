@@ -22,10 +22,10 @@ from seisblock.readers.source import BytesReader, RawFile
 _PLOT_PATTERN = re.compile(
     r"\.(?:ps|eps|gif|png|jpe?g|tiff?|pdf|svg|html?)(?:\.gz)?\Z|\.img\.tar\.gz\Z|(?:^|/)(?:\._|__MACOSX/)", re.IGNORECASE
 )
-# gzip's errors are OSErrors, those of unknown compression methods RuntimeErrors
+# gzip raises OSErrors
 _FORMAT_ERRORS = (tarfile.TarError, zipfile.BadZipFile, zlib.error, lzma.LZMAError, struct.error)
-_DAMAGE_ERRORS = (*_FORMAT_ERRORS, EOFError, RuntimeError, ValueError, OSError)
-"""Exceptions raised by the standard library on truncated, damaged or encrypted archives."""
+_DAMAGE_ERRORS = (*_FORMAT_ERRORS, EOFError, ValueError, OSError)
+"""Exceptions raised by the standard library on truncated or damaged archives."""
 
 _DECOMPRESSORS: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
     (rb"\x1f\x8b", lambda stream: gzip.GzipFile(fileobj=stream)),
@@ -68,9 +68,11 @@ def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[
         # errors of this package (limits, nested archives) keep their message
         except InputError:
             raise
+        # of zipfile, for a password or a compression method that it lacks
+        except RuntimeError as error:
+            raise RecordFormatError("{name}: archive encrypted or compressed by an unknown method; unpack it first", name=blob.name) from error
         except _DAMAGE_ERRORS as error:
-            message = "{name}: archive damaged or encrypted ({error}); download it again or unpack it first"
-            raise RecordFormatError(message, name=blob.name, error=str(error)[:200]) from error
+            raise RecordFormatError("{name}: archive damaged; download it again", name=blob.name) from error
         if member is None:
             return
         if not member.data:

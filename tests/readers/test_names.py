@@ -61,8 +61,20 @@ def test_other_compression_formats_are_unpacked(suffix, pack, tmp_path):
     single.write_bytes(pack(plain.encode()))
     assert read(single).samples == 400
     single.write_bytes(pack(plain.encode())[:-20])
-    with pytest.raises(RecordFormatError, match="archive damaged or encrypted"):
+    with pytest.raises(RecordFormatError, match=r"archive damaged; download it again\Z"):
         read(single)
+
+
+def test_encrypted_zip_is_not_called_damaged(tmp_path):
+    """Bit 0 of the flags of a member marks a password; the message quotes no exception of Python."""
+    plain = make_zip({"mine.csv": b"time,EW (gal)\n0.00,1\n"})
+    data = bytearray(plain)
+    data[6] |= 1
+    data[plain.index(b"PK\x01\x02") + 8] |= 1
+    path = tmp_path / "mine.zip"
+    path.write_bytes(data)
+    with pytest.raises(RecordFormatError, match=r"archive encrypted or compressed by an unknown method; unpack it first\Z"):
+        read(path)
 
 
 def test_zip_with_folders_gives_its_record(tmp_path):

@@ -210,5 +210,5 @@ def test_truncated_bundle_keeps_earlier_records(folder):
         assert [read_source(item, ReadOptions()).codes for item in remaining] == [("NS", "EW", "UD")] * len(remaining) and len(
             remaining
         ) >= good
-        with pytest.raises(RecordFormatError, match=r"event.tar.gz: archive damaged or encrypted"):
+        with pytest.raises(RecordFormatError, match=r"event.tar.gz: archive damaged; download it again"):
             read_source(failed, ReadOptions())
