@@ -70,7 +70,9 @@ def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[
             raise
         # of zipfile, for a password or a compression method that it lacks
         except RuntimeError as error:
-            raise RecordFormatError("{name}: archive encrypted or compressed by an unknown method; unpack it first", name=blob.name) from error
+            raise RecordFormatError(
+                "{name}: archive encrypted or compressed by an unknown method; unpack it first", name=blob.name
+            ) from error
         except _DAMAGE_ERRORS as error:
             raise RecordFormatError("{name}: archive damaged; download it again", name=blob.name) from error
         if member is None:

@@ -35,7 +35,7 @@ _FILLER_WORDS = re.compile(
 )
 """Words next to a direction that carry no direction."""
 
-_QUADRANT = re.compile(r"([NS])(\d{1,2}(?:\.\d+)?)([EW])", re.IGNORECASE)
+_QUADRANT = re.compile(r"([NS])(\d{1,3}(?:\.\d+)?)([EW])", re.IGNORECASE)
 _DEGREES = re.compile(r"(?:az(?:imuth)?)?(\d{1,3}(?:\.\d+)?)(deg(?:rees?)?|°|度)?", re.IGNORECASE)
 _SEED = re.compile(r"(?:.*\.)?([FGDCESHBMLV][NLGH])([NEZ123])", re.IGNORECASE)
 _SEED_POINTS = {"N": "NS", "E": "EW", "Z": "UD"}
@@ -132,7 +132,7 @@ def parse_direction(text: str) -> Direction | None:
     Parameters
     ----------
     text : str
-        ``NS``, ``N-S``, ``E/W``, ``north``, ``東西``; ``N10E``, ``S80W``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``, ``Z``; ``L``,
+        ``NS``, ``N-S``, ``E/W``, ``north``, ``東西``; ``N10E``, ``N120E``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``, ``Z``; ``L``,
         ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``; also with a word for component: ``UD成分``, ``東西方向``, ``上下動``,
         ``NS component``. A lone ``T`` is excluded: it may be the time.
 
@@ -157,6 +157,9 @@ def parse_direction(text: str) -> Direction | None:
     quadrant = _QUADRANT.fullmatch(re.sub(r"[°度]", "", re.sub(r"[\s_-]", "", text)))
     if quadrant and float(quadrant[2]) <= 90.0:
         return direction_from_azimuth(bearing_to_azimuth(quadrant[1], float(quadrant[2]), quadrant[3]))
+    # N120E: from north through east
+    if quadrant and float(quadrant[2]) <= 360.0 and (quadrant[1] + quadrant[3]).upper() == "NE":
+        return direction_from_azimuth(float(quadrant[2]))
     degrees = _DEGREES.fullmatch(re.sub(r"[\s_:=-]", "", text))
     if degrees and float(degrees[1]) <= 360.0:
         return direction_from_azimuth(float(degrees[1]), is_bare_number=degrees[0] == degrees[1])

@@ -46,6 +46,7 @@ def codes(record):
         ("time,N10E,N80W,UD", [("10", 10.0), ("280", 280.0), ("UD", None)]),
         ("time,10,280,UD", [("10", 10.0), ("280", 280.0), ("UD", None)]),
         ("time,010°,100°,UD", [("10", 10.0), ("100", 100.0), ("UD", None)]),
+        ("time,N30E,N120E,UD", [("30", 30.0), ("120", 120.0), ("UD", None)]),
         ("time,S45W,S45E,up", [("225", 225.0), ("135", 135.0), ("UD", None)]),
         ("time,0,90,UD", [("NS", 0.0), ("EW", 90.0), ("UD", None)]),
         ("time,X,Y,Z", [("X", None), ("Y", None), ("UD", None)]),
@@ -96,6 +97,23 @@ def test_vertical_is_found_within_longer_names(table, form, names, unit):
     record = read(table(header), units=None if unit else "gal")
     assert codes(record) == [("NS", 0.0), ("EW", 90.0), ("UD", None)]
     assert record.doubts == ()
+
+
+@pytest.mark.parametrize("name", ["合成", "3成分合成加速度", "水平合成", "Resultant", "vector sum"])
+def test_resultant_of_components_is_no_component(table, name):
+    """The vector sum beside the components is ignored with a note; 合成波 is a synthetic motion."""
+    total = np.sqrt(NORTH**2 + EAST**2 + UP**2)
+    record = read(table(f"時刻(s),NS(gal),EW(gal),UD(gal),{name}(gal)", T, NORTH, EAST, UP, total))
+    assert (record.codes, record.doubts) == (("NS", "EW", "UD"), ())
+    assert any(name in note for note in map(str, record.history))
+    assert read(table("時刻(s),合成波(gal)", T, NORTH)).samples == T.size
+
+
+@pytest.mark.parametrize("unit", ["cm·s⁻²", "cm/s²", "cm/s\uff72", "cm s\u22122"])
+def test_unit_with_raised_digits_is_gal(table, unit):
+    """Raised minus and dot, and a raised 2 of Latin-1, which in Shift-JIS is the half-width katakana i."""
+    record = read(table(f"time (s),NS ({unit}),EW ({unit}),UD ({unit})"))
+    np.testing.assert_allclose(record.component("NS").acceleration, NORTH / 100.0)
 
 
 def test_numbered_component_is_not_an_azimuth(table):

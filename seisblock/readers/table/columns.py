@@ -142,7 +142,8 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
         message = "{name}: {written!r} is not a name for column {index}: expected {understood}"
         raise RecordFormatError(message, name=name, written=heading, index=index + 1, understood=ACCEPTED_NAMES)
     direction = parse_direction(bare_heading)
-    if unit:
+    quantity = classify_other_quantity(heading)
+    if unit and quantity is None:
         return _acceleration_column(index, heading, direction or _unknown_direction(bare_heading), unit)
     # acceleration units come first: 'T (gal)' is transverse, 'T (s)' is time
     if component_code(heading) == TIME or seconds:
@@ -152,7 +153,6 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
         return Column(index, heading, TIME, seconds=seconds or 1.0)
     if direction is not None and (not unit_text or unit_text.lower() == "deg"):
         return _acceleration_column(index, heading, direction, "")
-    quantity = classify_other_quantity(heading)
     if quantity is not None:
         return quantity
     if unit_text:

@@ -65,6 +65,8 @@ _OTHER_NAMES = {
     N_("line number"): ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
     N_("remarks"): ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
 }
+# 合成波, 合成地震動: a synthetic motion
+_RESULTANT = re.compile(r"合成(?!地震|波|動)|\bresultant\b|\bvector[ _]?sum\b", re.IGNORECASE)
 _QUANTITY_BY_UNIT = {spelling: quantity for quantity, spellings in _OTHER_UNITS.items() for spelling in spellings}
 _QUANTITY_BY_NAME = {spelling: quantity for quantity, spellings in _OTHER_NAMES.items() for spelling in spellings}
 
@@ -82,8 +84,10 @@ def normalize_unit(text: str) -> str | None:
     >>> normalize_unit("cm/sec/sec"), normalize_unit("m/s²"), normalize_unit("g's"), normalize_unit("V")
     ('gal', 'm/s2', 'g', None)
     """
-    unit_text = normalize_cell(text).lower().replace("sec", "s").replace("/s/s", "s2").replace("s^-2", "s2").replace("s-2", "s2")
-    return _UNITS.get(re.sub(r"[\s/^_*.'’]", "", unit_text))
+    # in Latin-1 read as Shift-JIS a superscript 2 is a half-width katakana
+    unit_text = normalize_cell(text).lower().replace("\u2212", "-").replace("イ", "2")
+    unit_text = unit_text.replace("sec", "s").replace("/s/s", "s2").replace("s^-2", "s2").replace("s-2", "s2")
+    return _UNITS.get(re.sub(r"[\s/^_*.'’·⋅]", "", unit_text))
 
 
 def require_unit(name: str, line: int, text: str) -> str:
@@ -143,8 +147,12 @@ def classify_other_quantity(text: str) -> str | None:
     --------
     >>> classify_other_quantity("vel (cm/s)"), classify_other_quantity("index"), classify_other_quantity("NS (gal)")
     ('velocity values', 'line number', None)
+    >>> classify_other_quantity("合成 (gal)"), classify_other_quantity("合成波 (gal)")
+    ('resultant of several components', None)
     """
     name, unit = split_unit(text)
+    if _RESULTANT.search(name):
+        return N_("resultant of several components")
     if normalize_unit(unit) or time_unit_seconds(unit):
         return None
     return _QUANTITY_BY_UNIT.get(unit.lower()) or _QUANTITY_BY_NAME.get(re.sub(r"[\s_.]", "", name).lower())
