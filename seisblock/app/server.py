@@ -116,7 +116,7 @@ class RefuseForeignOrigin:
         await self._app(scope, receive, send_guarded)
 
 
-def create_app(folder: Path, locale: str | None = None, workers: int | None = None) -> Starlette:
+def create_app(folder: Path, locale: str | None = None) -> Starlette:
     """Return the ASGI application.
 
     Parameters
@@ -125,10 +125,8 @@ def create_app(folder: Path, locale: str | None = None, workers: int | None = No
         Folder of the uploads and results.
     locale : "en", "ja" or None
         Language of the page unless its address tells another; default: that of the environment.
-    workers : int or None
-        Commands at a time; default: one for each processor, at least two.
     """
-    tabs = Tabs(folder, workers or max(2, os.cpu_count() or 1))
+    tabs = Tabs(folder, max(2, os.cpu_count() or 1))
     page_locale = get_locale(locale)
 
     @contextlib.asynccontextmanager

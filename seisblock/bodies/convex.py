@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.block import DENSITY, Block
-from seisblock.bodies.scan.body import Pair, ScannedBody, Triple
+from seisblock.bodies.scan.body import Pair, ScannedBody, Triple, check_inertia
 from seisblock.bodies.scan.polygon import convex_hull
 from seisblock.bodies.scan.scan import DEFAULT_TOLERANCE_SHARE, Scan
 from seisblock.core import checks
@@ -67,16 +67,7 @@ class ConvexBody(DisplayMixin):
 
     def __post_init__(self) -> None:
         checks.positive("{name}: {what}", self.mass, "kg", error=BodyError, name=self.name, what=lazy_gettext("mass"))
-        tensor = np.array(self.inertia, dtype=np.float64)
-        if tensor.shape != (3, 3) or not np.isfinite(tensor).all() or np.abs(tensor - tensor.T).max() > 1e-9 * np.abs(tensor).max():
-            raise BodyError("{name}: the inertia must be a symmetric 3 x 3 matrix", name=self.name)
-        moments = np.linalg.eigvalsh(tensor)
-        if not (moments[0] > 0.0 and moments[2] <= (moments[0] + moments[1]) * (1.0 + 1e-9)):
-            raise BodyError(
-                "{name}: principal moments of inertia of {moments} kg m^2 are not physically possible",
-                name=self.name,
-                moments=[f"{moment:.4g}" for moment in moments],
-            )
+        check_inertia(self.inertia, self.name)
         points = self.points
         if points.ndim != 2 or points.shape[1:] != (3,) or len(points) < 4 or not np.isfinite(points).all():
             raise BodyError("{name}: the hull needs four vertices or more, each with x, y and z", name=self.name)

@@ -44,7 +44,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     required=False,
     metavar="[SCAN]",
     section="Body",
-    shell_complete=shell_completion.complete_scans,
+    shell_complete=shell_completion.complete_bundled("scan"),
     help="Closed triangle mesh: .stl, .ply or .obj file, or the bundled boulder.ply.",
 )
 @option(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 import inspect
 import json
 import math
@@ -137,6 +138,13 @@ class Argument(click.Argument):
         return self.make_metavar(ctx), self.help or ""
 
 
+option = functools.partial(click.option, cls=Option)
+"""Declare an option in a section of the help, see :func:`click.option`."""
+
+argument = functools.partial(click.argument, cls=Argument)
+"""Declare an argument with a help text, see :func:`click.argument`."""
+
+
 def docstring(target: ModuleType | Callable[..., Any]) -> str | None:
     """Return the docstring of a module or function, from its source where ``python -OO`` has removed it."""
     if target.__doc__ is not None:
@@ -268,11 +276,6 @@ def english_help_option(option: click.Option | None) -> click.Option | None:
     return option
 
 
-def option(*declarations: str, section: str = "Solver", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Declare an option in a section of the help, see :func:`click.option`."""
-    return click.option(*declarations, cls=Option, section=section, **attributes)
-
-
 def add_options(*declarations: Decorator) -> Decorator:
     """Return a decorator that adds options and arguments to a command in their order."""
 
@@ -282,8 +285,3 @@ def add_options(*declarations: Decorator) -> Decorator:
         return function
 
     return decorate
-
-
-def argument(*declarations: str, section: str = "Arguments", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Declare an argument with a help text, see :func:`click.argument`."""
-    return click.argument(*declarations, cls=Argument, section=section, **attributes)

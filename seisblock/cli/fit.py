@@ -59,7 +59,7 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
     "outcomes",
     metavar="OUTCOMES",
     section="Record",
-    shell_complete=shell_completion.complete_outcomes,
+    shell_complete=shell_completion.complete_bundled("outcomes"),
     help="Table (.csv): record, a file in the same folder; fell or moved, 0 or 1; optional weight, component, scale. Bundled: "
     "shaken_block.csv.",
 )

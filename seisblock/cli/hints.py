@@ -8,8 +8,9 @@ from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.cli.bodies.options import DEFAULT_TWO_LAYER
 from seisblock.cli.options import Source
-from seisblock.core.i18n import gettext
+from seisblock.core.i18n import N_, gettext
 from seisblock.output.text.tables import styled_line
 
 LENGTH_PLACEHOLDER = "LENGTH"
@@ -53,21 +54,17 @@ def _size_options(block: Block) -> list[str]:
     return [*words, "--inset", f"{block.inset / block.width:.6g}"] if block.inset else words
 
 
-def jump_hint(
-    source: Source, params: Mapping[str, Any], default: str, block: TwoLayerBlock, contact: Contact, tenon: float
-) -> Iterator[Any]:
+def jump_hint(source: Source, params: Mapping[str, Any], block: TwoLayerBlock, contact: Contact, tenon: float) -> Iterator[Any]:
     """Yield the ``respond`` command line for the two-layer block, with friction and tenons."""
-    by_name = params.get("width") is None
-    body = (
-        ["--block", params.get("block") or default, "--side", params.get("side") or "short"] if by_name else _size_options(block.as_block())
-    )
+    body = _size_options(block.as_block())
+    if params.get("width") is None:
+        body = ["--block", params.get("block") or DEFAULT_TWO_LAYER, "--side", params.get("side") or "short"]
     words = [*body, "--mu", f"{contact.mu:g}", "--mu-kinetic", f"{contact.kinetic:g}", "--restitution", f"{contact.restitution_y:g}"]
     command = respond_command(source, *words, "--tenon", f"{tenon:g}" if tenon else LENGTH_PLACEHOLDER)
+    text = N_("Full response with friction and tenons: {typed}")
     if not tenon:
-        text = gettext("Full response with friction and tenons (tenon length required): {typed}", typed=command)
-    else:
-        text = gettext("Full response with friction and tenons: {typed}", typed=command)
-    yield styled_line(text)
+        text = N_("Full response with friction and tenons (tenon length required): {typed}")
+    yield styled_line(gettext(text, typed=command))
 
 
 def rock_hint(source: Source, params: Mapping[str, Any], block: Block, mu: float | None, *, suffices: bool) -> Iterator[Any]:

@@ -12,7 +12,7 @@ import click
 from seisblock.bodies.body_name import body_name
 from seisblock.bodies.edge_wear import DEFAULT_WEAR
 from seisblock.bodies.kinds import KINDS
-from seisblock.cli.bodies.options import block_option, cemetery_option, inset_option, side_option, stones_option
+from seisblock.cli.bodies.options import DEFAULT_TWO_LAYER, block_option, cemetery_option, inset_option, side_option, stones_option
 from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -26,7 +26,6 @@ from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_RUNS
 from seisblock.models.jump.options import LANDINGS
 
-DEFAULT_BLOCK = "chozusha"
 FORM_NAMES = N_("--cemetery (with --rate, or with a column fallen), --slid, --jumped or --twist")
 
 STONE_OPTIONS = ("frequency", "criterion", "inset", "confidence", "common_error", "stone_error", "bias", "frequency_error", "stones")
@@ -65,7 +64,7 @@ TWIST_OPTIONS = (
 @option(
     "--displacement", type=LENGTH, metavar="M", section="Body", help="--twist: residual displacement of the same object, m or with a unit."
 )
-@block_option(f"--jumped, --twist: bundled body or TOML file. [default: --jumped: {DEFAULT_BLOCK}]", "two-layer")
+@block_option(f"--jumped, --twist: bundled body or TOML file. [default: --jumped: {DEFAULT_TWO_LAYER}]", "two-layer")
 @option("--width", type=LENGTH, section="Body", help="--twist: width along the component, m or with a unit.")
 @option("--height", type=LENGTH, section="Body", help="--twist: height, m or with a unit.")
 @option("--depth", type=LENGTH, section="Body", help="--twist: depth, m or with a unit. [default: as the width]")
@@ -400,7 +399,7 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
         return displacement_function, partial(slid_document, largest=params["largest"], gravity_m_s2=gravity, **frictions)
     from seisblock.cli.bodies.two_layer import two_layer_choice
 
-    choice = two_layer_choice(params, default=DEFAULT_BLOCK)
+    choice = two_layer_choice(params)
     info("body: {name}; {says}", name=body_name(choice.block.name), says=choice.description)
     if params["first"]:
         info("--first: only the first chain of motion in each record counts; without --first all are added, as in seisblock jump")

@@ -11,7 +11,7 @@ import click
 
 from seisblock.bodies.body_name import body_name
 from seisblock.bodies.two_layer import Contact
-from seisblock.cli.bodies.options import block_option
+from seisblock.cli.bodies.options import DEFAULT_TWO_LAYER, block_option
 from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
@@ -29,8 +29,6 @@ from seisblock.models.jump.options import JumpOptions
 if TYPE_CHECKING:
     from seisblock.cli.bodies.two_layer import TwoLayerChoice
 
-DEFAULT_BLOCK = "chozusha"
-
 
 @click.command(
     cls=Command,
@@ -38,7 +36,7 @@ DEFAULT_BLOCK = "chozusha"
     examples=("seisblock jump", "seisblock jump record.csv --component EW --drop 0.3 --tenon 2cm --plot jump.png"),
 )
 @record_options
-@block_option(f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]", "two-layer")
+@block_option(f"Bundled body or TOML file. [default: {DEFAULT_TWO_LAYER}]", "two-layer")
 @option(
     "--side",
     type=SIDES,
@@ -116,7 +114,7 @@ def jump(source: Source, output: OutputOptions, repeat: bool, as_printed: bool, 
         responses=responses,
         tables=lambda: chain(
             text_output.tables(responses, gal=output.gal, printed=printed, combinations=len(runs)),
-            jump_hint(source, {**params, "side": first.side}, DEFAULT_BLOCK, first.choice.block, first.choice.contact, first.options.tenon),
+            jump_hint(source, {**params, "side": first.side}, first.choice.block, first.choice.contact, first.options.tenon),
         ),
     )
 
@@ -134,7 +132,7 @@ class _Run:
         """Return the run of one combination; what is not given comes from the body."""
         from seisblock.cli.bodies.two_layer import two_layer_choice
 
-        choice = two_layer_choice({**params, "side": side, "restitution_y": restitution}, default=DEFAULT_BLOCK)
+        choice = two_layer_choice({**params, "side": side, "restitution_y": restitution})
         given_options = {"drop": drop, "tenon": params["tenon"] if _is_given("tenon") else None}
         base: dict[str, Any] = {**choice.base, **{key: value for key, value in given_options.items() if value is not None}}
         solver_options = {key: params[key] for key in ("spin", "direction", "landing", "first", "gravity")}

@@ -12,7 +12,7 @@ import click
 
 from seisblock.cli import shell_completion
 from seisblock.cli.command import Decorator, add_options, argument, option
-from seisblock.cli.output import DPI, SLOW, OutputOptions, check_output
+from seisblock.cli.output import DPI, SLOW, OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import JMA, SIZE, STOREY, WINDOW, FormatType
 from seisblock.cli.verbosity import quiet_output
@@ -248,9 +248,8 @@ def _record_options(default: str) -> Callable[[Function], Function]:
         "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: {default}]",
         default=lazy_gettext(default),
     )
-    record = argument(
-        "record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=shell_completion.complete_records, help=help_text
-    )
+    complete = shell_completion.complete_bundled("record", from_first_letter=True)
+    record = argument("record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=complete, help=help_text)
     return lambda function: _collect_options(function, (record, *_RECORD_OPTIONS), Source, "source")
 
 
@@ -323,18 +322,7 @@ def output_options(
         *(_ANIMATION_OPTIONS if film else ()),
     )
     declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _DETAILS, _QUIET)
-    return lambda function: _collect_options(_with_output_check(function), declarations, OutputOptions, "output")
-
-
-def _with_output_check(function: Function) -> Function:
-    """Check the output options before the command runs."""
-
-    @functools.wraps(function)
-    def looking(*args: Any, output: OutputOptions, **kwargs: Any) -> Any:
-        check_output(output)
-        return function(*args, output=output, **kwargs)
-
-    return looking
+    return lambda function: _collect_options(function, declarations, OutputOptions, "output")
 
 
 def _collect_options(function: Function, declarations: tuple[Any, ...], kind: Any, name: str, **constants: Any) -> Function:

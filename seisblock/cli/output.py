@@ -19,7 +19,7 @@ DPI, SLOW = 200, 1.0
 
 @dataclass(frozen=True)
 class OutputOptions:
-    """Values of the output options."""
+    """Values of the output options, checked before the command runs."""
 
     json: bool
     csv: Path | None
@@ -33,6 +33,9 @@ class OutputOptions:
     slow: float = SLOW
     details: bool = False
     excel: bool = False
+
+    def __post_init__(self) -> None:
+        check_output(self)
 
 
 def check_output(output: OutputOptions) -> None:

@@ -228,12 +228,8 @@ def _make_line() -> StatusLine | None:
     """Return the progress line or file of a run; None where nobody watches."""
     if path := os.environ.get(FILE_VARIABLE):
         return ProgressFile(Path(path))
-    return StatusLine() if _is_watched() else None
-
-
-def _is_watched() -> bool:
-    """Return whether stderr is a terminal with cursor control and ``--quiet`` is off."""
-    return not is_quiet() and sys.stderr.isatty() and os.environ.get("TERM", "") not in ("", "dumb", "unknown")
+    has_cursor = sys.stderr.isatty() and os.environ.get("TERM", "") not in ("", "dumb", "unknown")
+    return StatusLine() if has_cursor and not is_quiet() else None
 
 
 def _make_bar(*, has_total: bool) -> Bar:

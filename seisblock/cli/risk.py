@@ -36,7 +36,7 @@ _check_years = check_callback(partial(checks.positive, unit="years"))
     required=True,
     metavar="FILE",
     type=click.Path(path_type=Path),
-    shell_complete=shell_completion.complete_hazards,
+    shell_complete=shell_completion.complete_bundled("hazard"),
     section="Site",
     help="CSV of the hazard: levels with unit (pgv_m_s, pga_g, sa(0.5)_gal), annual_rate (or annual_poe, poe_50_years); branch and "
     "weight for several curves. Bundled: synthetic_hazard.csv.",

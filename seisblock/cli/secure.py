@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     "--hazard",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    shell_complete=shell_completion.complete_hazards,
+    shell_complete=shell_completion.complete_bundled("hazard"),
     section="Record",
     help="Instead of a scenario: hazard of the site in pga, pgv or sa(T), as for seisblock risk. Bundled: synthetic_hazard.csv.",
 )

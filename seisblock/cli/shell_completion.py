@@ -26,34 +26,20 @@ def complete_components(ctx: click.Context, param: click.Parameter, incomplete: 
     return _completion_items((f"{prefix}," if prefix else "") + name for name in names if name.lower().startswith(partial.lower()))
 
 
-def complete_records(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete files, and bundled records after the first letter."""
-    return [*_completion_items(_bundled_names(incomplete or "?", "record")), CompletionItem(incomplete, type="file")]
+def complete_bundled(kind: str, *, from_first_letter: bool = False) -> Completion:
+    """Return a completion of the bundled files of a kind, if so only after the first letter, and of files."""
 
+    def offer(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Complete names of files."""
+        names = () if from_first_letter and not incomplete else _bundled_names(incomplete, kind)
+        return [*_completion_items(names), CompletionItem(incomplete, type="file")]
 
-def complete_scans(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete bundled scans and files."""
-    return [*_completion_items(_bundled_names(incomplete, "scan")), CompletionItem(incomplete, type="file")]
+    return offer
 
 
 def complete_samples(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Complete bundled files."""
     return _completion_items(_bundled_names(incomplete))
-
-
-def complete_cemeteries(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete bundled cemeteries and files."""
-    return [*_completion_items(_bundled_names(incomplete, "cemetery")), CompletionItem(incomplete, type="file")]
-
-
-def complete_outcomes(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete bundled tables of outcomes and files."""
-    return [*_completion_items(_bundled_names(incomplete, "outcomes")), CompletionItem(incomplete, type="file")]
-
-
-def complete_hazards(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete bundled hazard tables and files."""
-    return [*_completion_items(_bundled_names(incomplete, "hazard")), CompletionItem(incomplete, type="file")]
 
 
 def complete_bodies(*kinds: str) -> Completion:

@@ -123,7 +123,9 @@ def slide(
     sweeps = is_azimuth_sweep(source)
     is_study = any(values is not None and len(values) > 1 for values in parameters.values())
     records = load_records(replace(source, component=()) if sweeps else source)
-    directions = _sweep_azimuths(full_circle=one_way or any(slope)) if sweeps else None
+    # sliding that depends on the direction requires the full circle
+    end = 360 if one_way or any(slope) else 180
+    directions = [str(azimuth) for azimuth in range(0, end, AZIMUTH_STEP)] if sweeps else None
     if is_study:
         _run_study(records, source, output, directions, parameters, fixed)
     else:
@@ -232,8 +234,3 @@ def _motions(record: Record, source: Source, directions: list[str] | None) -> It
     else:
         for name in directions:
             yield motion_of(record, name)
-
-
-def _sweep_azimuths(*, full_circle: bool) -> list[str]:
-    """Return the azimuths of a sweep: half a circle, or the full circle for direction-dependent sliding."""
-    return [str(azimuth) for azimuth in range(0, 360 if full_circle else 180, AZIMUTH_STEP)]

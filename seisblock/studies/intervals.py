@@ -46,7 +46,7 @@ def clopper_pearson(count: int, runs: int, confidence: float = CONFIDENCE) -> tu
     return float(betaincinv(count, runs - count + 1, tail)), float(betaincinv(count + 1, runs - count, 1.0 - tail))
 
 
-def clustered_interval(counts: Sequence[int], runs: Sequence[int], confidence: float = CONFIDENCE) -> tuple[float, float]:
+def clustered_interval(counts: Sequence[int], runs: Sequence[int]) -> tuple[float, float]:
     """Return the binomial interval of a share of runs that come in groups, such as several versions under each record.
 
     The exact interval for the effective number of runs, the variance of a binomial share over that between the groups
@@ -56,12 +56,11 @@ def clustered_interval(counts: Sequence[int], runs: Sequence[int], confidence: f
     ----------
     counts, runs : sequences of int
         Of each group; groups without runs are left out.
-    confidence : float, 1
 
     Raises
     ------
     ParameterError
-        If there is no run, or the level is out of range.
+        If there is no run.
 
     Examples
     --------
@@ -73,7 +72,7 @@ def clustered_interval(counts: Sequence[int], runs: Sequence[int], confidence: f
 
     total, groups = sum(runs), sum(run > 0 for run in runs)
     count = sum(counts)
-    tail = (1.0 - _check_counts(count, total, confidence)) / 2.0
+    tail = (1.0 - _check_counts(count, total, CONFIDENCE)) / 2.0
     share = count / total
     # ratio estimator: groups may differ in size when runs were stopped
     squares = sum((k - share * n) ** 2 for k, n in zip(counts, runs, strict=True))

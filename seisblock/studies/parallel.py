@@ -126,7 +126,7 @@ def map_threads(
 
 
 def map_batches(
-    work: Callable[[slice], Result], runs: int, *, size: int = BATCH_SIZE, progress: Progress | None = None, workers: int | None = None
+    work: Callable[[slice], Result], runs: int, *, size: int = BATCH_SIZE, progress: Progress | None = None
 ) -> Iterator[Result]:
     """Yield the results of consecutive batches of runs, in order, for work that does several runs at once.
 
@@ -136,11 +136,11 @@ def map_batches(
         Some runs, as a slice of all of them.
     runs, size : int
         Number of runs, and runs per batch.
-    progress, workers
+    progress : callable, optional
         As for :func:`map_threads`.
     """
     parts = [slice(first, min(first + size, runs)) for first in range(0, runs, size)]
-    results = map_threads(work, parts, workers=workers)
+    results = map_threads(work, parts)
     for part, result in zip(parts, results, strict=True):
         yield result
         if progress is not None:

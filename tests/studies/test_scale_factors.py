@@ -48,7 +48,7 @@ def test_scale_factors_recover_factor_of_slip(largest):
 @pytest.mark.parametrize("first", [False, True])
 def test_scale_factors_recover_factor_of_jump(first):
     """The displacement of the Chozu-sha under the record as it is has 1 among its factors."""
-    selection = two_layer_choice({}, default="chozusha")
+    selection = two_layer_choice({})
     chains = solve_jump(selection.block, MOTION, contact=selection.contact, first=first).outcome.chains
     observed = abs(sum(chain.total_displacement_m or 0.0 for chain in chains))
     factors = scale_factors(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -76,16 +77,8 @@ class ScannedBody(DisplayMixin):
         checks.positive("{name}: {what}", self.mass, "kg", error=BodyError, name=self.name, what=lazy_gettext("mass"))
         checks.positive("{name}: {what}", self.height, "m", error=BodyError, name=self.name, what=lazy_gettext("height"))
         checks.finite("{name}: {what}", self.facing, "degrees", error=BodyError, name=self.name, what=lazy_gettext("azimuth of +x"))
-        tensor, corners = np.array(self.inertia, dtype=np.float64), self.corners
-        if tensor.shape != (3, 3) or not np.isfinite(tensor).all() or np.abs(tensor - tensor.T).max() > 1e-9 * np.abs(tensor).max():
-            raise BodyError("{name}: the inertia must be a symmetric 3 x 3 matrix", name=self.name)
-        smallest, middle, largest = np.linalg.eigvalsh(tensor)
-        if not (smallest > 0.0 and largest <= (smallest + middle) * (1.0 + 1e-9)):
-            raise BodyError(
-                "{name}: principal moments of inertia of {moments} kg m^2 are not physically possible",
-                name=self.name,
-                moments=[f"{moment:.4g}" for moment in (smallest, middle, largest)],
-            )
+        check_inertia(self.inertia, self.name)
+        corners = self.corners
         if corners.ndim != 2 or corners.shape[1:] != (2,) or len(corners) < 3 or not np.isfinite(corners).all():
             raise BodyError("{name}: the base must have three corners or more, each with x and y", name=self.name)
         sides = np.roll(corners, -1, axis=0) - corners
@@ -183,6 +176,26 @@ class ScannedBody(DisplayMixin):
                 component=motion.name or "+x",
             )
         return self.block_toward(azimuth)
+
+
+def check_inertia(inertia: Sequence[Triple], name: str) -> None:
+    """Raise an error for a tensor that no body has.
+
+    Raises
+    ------
+    BodyError
+        If it is not symmetric, or its principal moments break the triangle inequality.
+    """
+    tensor = np.array(inertia, dtype=np.float64)
+    if tensor.shape != (3, 3) or not np.isfinite(tensor).all() or np.abs(tensor - tensor.T).max() > 1e-9 * np.abs(tensor).max():
+        raise BodyError("{name}: the inertia must be a symmetric 3 x 3 matrix", name=name)
+    moments = np.linalg.eigvalsh(tensor)
+    if not (moments[0] > 0.0 and moments[2] <= (moments[0] + moments[1]) * (1.0 + 1e-9)):
+        raise BodyError(
+            "{name}: principal moments of inertia of {moments} kg m^2 are not physically possible",
+            name=name,
+            moments=[f"{moment:.4g}" for moment in moments],
+        )
 
 
 def min_slenderness(body: ScannedBody) -> tuple[float, float]:

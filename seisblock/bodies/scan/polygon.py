@@ -36,7 +36,7 @@ def convex_hull(points: ArrayLike) -> FloatArray:
 
     points_array = np.atleast_2d(np.asarray(points, dtype=np.float64))
     if len(points_array) > PREFILTER_POINTS:
-        extreme_points = points_array[_extreme_points(points_array, PREFILTER_DIRECTIONS)]
+        extreme_points = points_array[_extreme_points(points_array)]
         points_array = np.concatenate([extreme_points, _points_outside(points_array, extreme_points)])
     try:
         corners = points_array[ConvexHull(points_array).vertices]
@@ -62,15 +62,15 @@ def _drop_collinear(corners: FloatArray) -> FloatArray:
     return corners
 
 
-def _extreme_points(points: FloatArray, directions: int) -> IntArray:
+def _extreme_points(points: FloatArray) -> IntArray:
     """Return the indices of the extreme points in directions all around, counter-clockwise, without duplicates."""
-    turn = 2.0 * math.pi / directions * np.arange(directions)
+    turn = 2.0 * math.pi / PREFILTER_DIRECTIONS * np.arange(PREFILTER_DIRECTIONS)
     unit_vectors = np.stack([np.cos(turn), np.sin(turn)])
-    best, indices = np.full(directions, -np.inf), np.zeros(directions, dtype=np.int64)
+    best, indices = np.full(turn.size, -np.inf), np.zeros(turn.size, dtype=np.int64)
     for begin in range(0, len(points), CHUNK_SIZE):
         projections = points[begin : begin + CHUNK_SIZE] @ unit_vectors
         best_rows = projections.argmax(axis=0)
-        best_projections = projections[best_rows, np.arange(directions)]
+        best_projections = projections[best_rows, np.arange(turn.size)]
         indices, best = np.where(best_projections > best, begin + best_rows, indices), np.maximum(best_projections, best)
     return indices[indices != np.roll(indices, 1)]
 
@@ -82,6 +82,12 @@ def _points_outside(points: FloatArray, corners: FloatArray) -> FloatArray:
     limits = np.einsum("ij,ji->i", corners, normals)
     masks = [(piece @ normals >= limits).any(axis=1) for piece in np.array_split(points, -(-len(points) // CHUNK_SIZE))]
     return points[np.concatenate(masks)]
+
+
+def _side_normals(polygon: FloatArray) -> FloatArray:
+    """Return the outward unit normal of each side of a counter-clockwise polygon, (n, 2)."""
+    edges = np.roll(polygon, -1, axis=0) - polygon
+    return np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
 
 
 def support_distance(polygon: FloatArray, direction: ArrayLike) -> float:
@@ -116,9 +122,7 @@ def offset_polygon(polygon: FloatArray, distance: float) -> FloatArray:
     remainder = polygon
     if distance == 0.0:
         return remainder
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    normals = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
-    for normal, corner in zip(normals, polygon, strict=True):
+    for normal, corner in zip(_side_normals(polygon), polygon, strict=True):
         excess = (remainder - corner) @ normal + distance
         if (excess > 0.0).all():
             return np.empty((0, 2))
@@ -147,9 +151,7 @@ def interior_distance(polygon: FloatArray, point: ArrayLike) -> float:
     """
     if len(polygon) < 3:
         return -math.inf
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    normals = np.column_stack([-edges[:, 1], edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
-    return float(np.einsum("ij,ij->i", np.asarray(point, dtype=np.float64) - polygon, normals).min())
+    return float(np.einsum("ij,ij->i", polygon - np.asarray(point, dtype=np.float64), _side_normals(polygon)).min())
 
 
 def nearest_edge(polygon: FloatArray, point: ArrayLike) -> tuple[float, float]:
@@ -160,8 +162,7 @@ def nearest_edge(polygon: FloatArray, point: ArrayLike) -> tuple[float, float]:
     >>> nearest_edge(convex_hull([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)]), (1.75, 0.5))
     (0.25, 0.0)
     """
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    normals = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
+    normals = _side_normals(polygon)
     distances = np.einsum("ij,ij->i", polygon - np.asarray(point, dtype=np.float64), normals)
     nearest_index = int(np.argmin(distances))
     return float(distances[nearest_index]), math.atan2(*(normals[nearest_index, ::-1] + 0.0))
@@ -175,6 +176,5 @@ def min_width(polygon: FloatArray) -> float:
     >>> min_width(convex_hull([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)]))
     1.0
     """
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    normals = np.column_stack([-edges[:, 1], edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
-    return float((np.einsum("kj,ij->ik", polygon, normals) - np.einsum("ij,ij->i", polygon, normals)[:, None]).max(axis=1).min())
+    normals = _side_normals(polygon)
+    return float((np.einsum("ij,ij->i", polygon, normals)[:, None] - np.einsum("kj,ij->ik", polygon, normals)).max(axis=1).min())

@@ -10,6 +10,9 @@ from seisblock.cli.command import Decorator, add_options, option
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import INSET, LENGTH, LENGTHS, MASS, OutputFile
 
+DEFAULT_TWO_LAYER = "chozusha"
+"""Bundled two-layer block of commands without a block or sizes."""
+
 
 def inset_option(text: str, *, section: str = "Body") -> Decorator:
     """Return ``--inset`` with the given help text."""
@@ -24,7 +27,7 @@ def bodies_option(text: str, *, required: bool = True) -> Decorator:
 
 def cemetery_option(text: str, **attributes: Any) -> Decorator:
     """Return ``--cemetery`` with the given help text."""
-    complete = shell_completion.complete_cemeteries
+    complete = shell_completion.complete_bundled("cemetery")
     return option("--cemetery", metavar="FILE|NAME", shell_complete=complete, section="Body", help=text, **attributes)
 
 

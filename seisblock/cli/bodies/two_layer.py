@@ -8,6 +8,7 @@ from typing import Any
 
 from seisblock.bodies.toml import read_body_toml
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock, base_from_table, contact_from_table, two_layer_from_table
+from seisblock.cli.bodies.options import DEFAULT_TWO_LAYER
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
 
@@ -24,7 +25,7 @@ class TwoLayerChoice:
     base: Mapping[str, float]
 
 
-def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoice:
+def two_layer_choice(params: Mapping[str, Any]) -> TwoLayerChoice:
     """Return the two-layer block and the contact described by a set of options.
 
     Parameters
@@ -32,8 +33,6 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
     params : mapping
         ``block``, ``side``, or ``width``, ``depth``, ``heights``, ``masses``; and ``mu``, ``mu_kinetic``, ``restitution_x``,
         ``restitution_y``, which override those of a preset. SI; None where not given.
-    default : str
-        Bundled body taken when neither a block nor sizes are given.
 
     Raises
     ------
@@ -52,7 +51,7 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
         block = _from_sizes(params, sizes)
         origin = lazy_gettext("sizes as given")
     else:
-        name = params.get("block") or default
+        name = params.get("block") or DEFAULT_TWO_LAYER
         table = read_body_toml(name)
         block, preset = two_layer_from_table(table, params.get("side") or "short"), contact_from_table(table)
         base = base_from_table(table)

@@ -64,7 +64,7 @@ def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, 
     return _with_title(title, _table(columns, [*rows]), caption)
 
 
-def side_by_side(title: str, names: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> Group:
+def side_by_side(title: str, names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Group:
     """Return a table with a column per item, split into several tables where the terminal ends.
 
     Parameters
@@ -74,9 +74,8 @@ def side_by_side(title: str, names: Sequence[str], rows: Iterable[Sequence[Any]]
         Headings; the first one is that of the row names.
     rows : sequence of rows
         Texts, or numbers that :func:`format_number` formats.
-    caption : str
     """
-    return _with_title(title, _SplitTable(names, [*rows]), caption)
+    return _with_title(title, _SplitTable(names, [*rows]), "")
 
 
 def _with_title(title: str, body: Any, caption: str) -> Group:

@@ -58,23 +58,18 @@ def draw_slenderness(axis: Axes, cemetery: Cemetery, threshold: float | None = N
     add_legend(axis, loc="upper right", bbox_to_anchor=None, ncols=1)
 
 
-def draw_rates(axis: Axes, curve: Iterable[CurvePoint], *, gal: bool = True, frequencies: Sequence[float] = FREQUENCIES) -> None:
+def draw_rates(axis: Axes, curve: Iterable[CurvePoint], *, gal: bool = True) -> None:
     """Draw the overturning rate against PGA for each frequency."""
     unit, name = acceleration_unit(gal=gal)
     points = list(curve)
     for frequency in dict.fromkeys(point.frequency_hz for point in points):
         pga = np.array([p.pga_m_s2 for p in points if p.frequency_hz == frequency]) / unit
         rate = np.array([p.rate for p in points if p.frequency_hz == frequency])
-        index = list(frequencies).index(frequency) if frequency in frequencies else len(LINES) - 1
+        index = FREQUENCIES.index(frequency) if frequency in FREQUENCIES else len(LINES) - 1
         colour, dashes = LINES[index % len(LINES)]
         axis.plot(pga, rate, label=f"{frequency:.3g} Hz", linewidth=1.1, color=colour, linestyle=dashes)
     axis.set_ylim(-0.02, 1.02)
     label_axes(axis, x=gettext("PGA ({unit})", unit=name), y=gettext("overturning rate (1)"))
-
-
-def _add_side_legend(axis: Axes) -> None:
-    """Add the legend beside the panel; inside, it would hide curves."""
-    add_legend(axis, loc="upper left", bbox_to_anchor=(1.01, 1.0), ncols=1)
 
 
 def overturn_rate_figure(
@@ -127,7 +122,8 @@ def overturn_rate_figure(
         _draw_rates(axes[2], [], None, reinforced_curve, gal=gal)
         set_panel_title(axes[1], gettext("as surveyed"))
         set_panel_title(axes[2], gettext("reinforced"))
-    _add_side_legend(axes[columns - 1])
+    # beside the panel: inside, it would hide curves
+    add_legend(axes[columns - 1], loc="upper left", bbox_to_anchor=(1.01, 1.0), ncols=1)
     return figure
 
 

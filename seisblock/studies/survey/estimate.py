@@ -231,13 +231,17 @@ def _average_likelihoods(parts: Sequence[Likelihood], shifts: Sequence[float], w
 
 def _summary(grid: FloatArray, value: FloatArray, bound: str | None, level: float) -> tuple[float | None, float | None, float | None]:
     """Return lower end, median and upper end of a quantity; `grid` holds its logarithm."""
-    tail = (1.0 - level) / 2.0
     if bound == "upper":
         # with a bound the likelihood is the probability of the survey itself, monotone in ln PGA
-        return None, None, float(np.exp(np.interp(-tail, -value, grid)))
+        return None, None, float(np.exp(np.interp((level - 1.0) / 2.0, -value, grid)))
     if bound == "lower":
-        return float(np.exp(np.interp(tail, value, grid))), None, None
-    # trapezoidal posterior under the flat prior in ln PGA
+        return float(np.exp(np.interp((1.0 - level) / 2.0, value, grid))), None, None
+    return posterior_quantiles(grid, value, level)
+
+
+def posterior_quantiles(grid: FloatArray, value: FloatArray, level: float) -> tuple[float, float, float]:
+    """Return lower end, median and upper end from a likelihood over the logarithm of a quantity with a flat prior (trapezoidal rule)."""
+    tail = (1.0 - level) / 2.0
     cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]))])
     low, middle, high = (float(np.exp(np.interp(share * cumulative[-1], cumulative, grid))) for share in (tail, 0.5, 1.0 - tail))
     return low, middle, high

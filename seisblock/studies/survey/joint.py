@@ -13,7 +13,7 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.studies.survey.assumptions import Assumptions
-from seisblock.studies.survey.estimate import Interval, ShakingEstimate, estimate_shaking
+from seisblock.studies.survey.estimate import Interval, ShakingEstimate, estimate_shaking, posterior_quantiles
 from seisblock.studies.survey.likelihood import Survey
 
 MIN_AGREEMENT = 0.01
@@ -84,7 +84,7 @@ def joint_estimate(
         values = np.array([part.interpolate(grid) for _, survey in surveys for part in settings.likelihoods(survey, [f])])
         total += weight * np.prod(values / values.max(axis=1, keepdims=True), axis=0)
         single += weight * values
-    low, middle, high = _quantiles(grid, total, settings.level)
+    low, middle, high = posterior_quantiles(grid, total, settings.level)
     apart = tuple(estimate_shaking(survey, frequency, settings) for _, survey in surveys)
     agreement = _agreement(single / single.max(axis=1, keepdims=True))
     names = [name for name, _ in surveys]
@@ -94,14 +94,6 @@ def joint_estimate(
         if agreement < MIN_AGREEMENT and not _intervals_overlap(apart[i].pga_interval_m_s2, apart[j].pga_interval_m_s2)
     ]
     return JointEstimate(tuple(names), frequency, middle, (low, high), apart, agreement, tuple(pairs))
-
-
-def _quantiles(grid: FloatArray, value: FloatArray, level: float) -> tuple[float, float, float]:
-    """Return lower end, median and upper end of a quantity; `grid` holds its logarithm."""
-    cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]))])
-    tail = (1.0 - level) / 2.0
-    low, middle, high = (float(np.exp(np.interp(q * cumulative[-1], cumulative, grid))) for q in (tail, 0.5, 1.0 - tail))
-    return low, middle, high
 
 
 def _agreement(values: FloatArray) -> float:
