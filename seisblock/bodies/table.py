@@ -81,9 +81,9 @@ _IDENTIFIERS = ("番号", "墓石番号", "整理番号", "管理番号", "資�
 """Headings of a number that names a body where there is no name."""
 
 _SPELLINGS = {
-    "width": ("b", "w", "幅", "横幅", "間口", "竿幅", "竿の幅", "竿石幅", "竿石の幅"),
-    "height": ("h", "高さ", "高", "竿高さ", "竿の高さ", "竿石高さ", "竿石の高さ"),
-    "depth": ("d", "奥行", "奥行き", "竿奥行", "竿石奥行"),
+    "width": ("b", "w", "幅", "横幅", "間口"),
+    "height": ("h", "高さ", "高"),
+    "depth": ("d", "奥行", "奥行き"),
     "mass": ("weight", "質量", "重量", "重さ"),
     "mu": ("μ", "friction", "frictioncoefficient", "摩擦係数", "摩擦係数μ", "静摩擦係数", "静摩擦係数μ"),
     "mu_kinetic": ("動摩擦係数",),
@@ -96,26 +96,36 @@ _SPELLINGS = {
     "surface": ("接触面",),
     "kind": ("種類", "種別"),
     "inset": ("摩耗", "縁の摩耗"),
-    "height_over_width": ("h/b", "hb", "h/w", "height/width", "高さ幅比", "高さ/幅", "縦横比", "高さ幅比h/b", "竿の高さ幅比"),
+    "height_over_width": ("h/b", "hb", "h/w", "height/width", "高さ幅比", "高さ/幅", "縦横比", "高さ幅比h/b"),
     "reinforced": ("dowelled", "doweled", "補強", "補強の有無"),
     "fallen": ("overturned", "転倒", "転倒の有無", "転倒有無", "転倒状況", "被害", "倒伏"),
     "azimuth_deg": ("azimuth", "方位", "方位角", "向き"),
     "count": ("number", "個数", "基数", "数"),
 }
+_SAO = ("竿", "棹")
+"""Word for an upper stone (sao), in two spellings: in a heading it makes a table one of gravestones."""
+
+_OF_STONE = [f"{word}{particle}" for word in (*_SAO, *(f"{sao}石" for sao in _SAO), "墓石", "石塔") for particle in ("", "の")]
+"""Beginnings of the headings of a stone's sizes."""
+
 _COLUMNS = {
     spelling: name
     for name in (*TEXT_COLUMNS, *LENGTH_COLUMNS, "mass", *NUMBER_COLUMNS, "inset", *SURVEY_COLUMNS)
     for spelling in (name.replace("_", ""), *_SPELLINGS.get(name, ()))
+} | {
+    f"{beginning}{spelling}": name
+    for name in ("width", "height", "depth", "height_over_width")
+    for spelling in _SPELLINGS[name]
+    for beginning in _OF_STONE
+    if not spelling.isascii()
 }
 """Keys by heading, without case, blanks and underscores."""
 
-_STONE_WORD = "竿"
-"""A heading with the word for an upper stone (sao) makes a table one of gravestones."""
-
 _BOOLEAN_WORDS = {
     "fallen": (
-        TRUE_WORDS | {"fallen", "overturned", "転倒", "倒れた", "倒伏"},
-        FALSE_WORDS | {"standing", "stood", "残存", "未転倒", "不転倒", "非転倒", "正立", "直立"},
+        TRUE_WORDS | {"fallen", "overturned", "転倒", "倒れた", "倒伏", "倒壊", "倒"},
+        FALSE_WORDS
+        | {"standing", "stood", "残存", "未転倒", "不転倒", "非転倒", "正立", "直立", "ずれ", "回転", "移動", "無被害", "被害なし"},
         N_("0, 1, yes, no, 転倒 or 残存"),
     ),
     "reinforced": (
@@ -321,7 +331,9 @@ def parse_table(sheet: Sheet, *, stones: bool | None = None, is_list: bool = Fal
     (header_line, header), rows = sheet.split_header(_COLUMNS)
     columns, units = _parse_header(header, sheet.source, header_line)
     marks = [key for key in SURVEY_COLUMNS if not (is_list and key in AMBIGUOUS_COLUMNS)]
-    lists_stones = any(key in marks for key in columns) or any(_STONE_WORD in cell for cell in header) if stones is None else stones
+    lists_stones = (
+        any(key in marks for key in columns) or any(word in cell for word in _SAO for cell in header) if stones is None else stones
+    )
     if is_list and not lists_stones:
         columns = ["" if key in AMBIGUOUS_COLUMNS else key for key in columns]
     if not lists_stones:

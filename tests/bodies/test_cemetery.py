@@ -8,7 +8,7 @@ import pytest
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import parse_cemetery, read_cemetery
 from seisblock.core.errors import BodyError
-from seisblock.core.i18n import use_locale
+from seisblock.core.i18n import gettext, use_locale
 from seisblock.output.text.tables import format_number
 from seisblock.samples import sample_path
 from tests import make_aoyama
@@ -43,6 +43,23 @@ def test_cemetery_accepts_japanese_columns_with_sizes():
     assert cemetery.stones[0].azimuth_deg == 90.0
     assert cemetery.stones[0].width == 0.24
     assert cemetery.notes == ("墓地の調査", "2024-01-01")
+
+
+@pytest.mark.parametrize("word", ["棹", "棹石", "棹石の", "墓石", "石塔の", "竿石の"])
+def test_cemetery_accepts_words_of_surveyors(word):
+    """Headings begin with the word for the stone; the damage column says fallen, shifted or unknown."""
+    table = f"番号,{word}幅,{word}高さ,被害\nA,24cm,72cm,倒\nB,24cm,60cm,ずれ\nC,24cm,60cm,無被害\nD,24cm,60cm,不明\n"
+    cemetery = parse_cemetery(table)
+    assert cemetery.ratios.tolist() == [3.0, 2.5, 2.5, 2.5]
+    assert [s.fallen for s in cemetery.stones] == [True, False, False, None]
+
+
+def test_missing_columns_are_named_in_japanese():
+    """The headings that a Japanese table has, not the English ones."""
+    with pytest.raises(BodyError) as failure:
+        parse_cemetery("番号,幅,転倒\n1,24cm,1\n")
+    with use_locale("ja"):
+        assert "列「高さ」と「幅」、または「高さ幅比」が必要です" in gettext(failure.value.message)
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
