@@ -79,6 +79,14 @@ def test_read_renadic_with_even_times(tmp_path):
     assert record.doubts == ()
 
 
+def test_zero_of_an_unset_clock_is_no_time(tmp_path):
+    """Recorders whose clock was never set print 1980-01-01 00:00."""
+    text = world.renadic(ROWS).replace("01/02/2020 3:04:00", "01/01/1980 0:00:00").replace("1/02/2020 3:04:05.000", "1/1/1980 0:00:00.000")
+    record = read(written(tmp_path, text))
+    assert (record.codes, record.start) == (("NS", "EW", "UD"), None)
+    assert "origin_time" not in record.metadata
+
+
 def test_uneven_pairs_keep_every_value(tmp_path):
     """A film record: interpolated at the printed millisecond, linear in between, with its largest interval and band in the history."""
     times = np.round(np.cumsum(np.random.default_rng(3).choice([0.004, 0.009, 0.013], NORTH.size)), 3)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from datetime import UTC, datetime
 from typing import NamedTuple
 
 from seisblock.core.errors import RecordFormatError
@@ -58,6 +59,9 @@ _UNSUPPORTED = {
 _PAIRS_PER_LINE, _TIME_RESOLUTION_S = 5, 1e-3
 """Layout of pairs of time and acceleration."""
 
+
+_UNSET_CLOCK = datetime(1980, 1, 1, tzinfo=UTC)
+"""Zero of GPS clocks, in the headers of recorders without a time."""
 
 _SENSOR_CHANNELS, _RECORDER_CHANNELS = 3, 4
 """Channels of a digital recorder of the free field (Etna, K2) and of its internal sensor; the last one is spare."""
@@ -183,7 +187,7 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
     # files without a number have the coordinates in its place
     code = "" if re.fullmatch(r"[\d.]+[NS],?", station[1]) else station[1]
     component, history = make_component(direction, to_si(section.values, unit), channel[2])
-    start, _ = parse_datetime(text[TRIGGER + line_shift])
+    start = _parse_clock(text[TRIGGER + line_shift])
     metadata = {"unit": unit, "volume": f"V{volume}", **_metadata(text, line_shift)}
     metadata |= {"channels": {direction.code: channel[1]}} | drop_missing({"place": parse_location(channel[3])})
     if section.history:
@@ -207,6 +211,12 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
     )
 
 
+def _parse_clock(text: str) -> datetime | None:
+    """Return the UTC time in a header line; None if missing, or the zero of a clock that was never set."""
+    time = parse_datetime(text)[0]
+    return None if time == _UNSET_CLOCK else time
+
+
 def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
     event, origin, trigger, station, name, hypocentre = (
         text[line + line_shift] for line in (EVENT, ORIGIN, TRIGGER, STATION, NAME, HYPOCENTRE)
@@ -225,7 +235,7 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
             # a depth of zero without a position is unknown
             "event_depth_km": depth if depth or places["event_latitude_deg"] is not None else None,
             **parse_magnitude(hypocentre),
-            "origin_time": parse_datetime(origin)[0],
+            "origin_time": _parse_clock(origin),
             "clock": clocks[0] if clocks else "UTC",
         }
     )
