@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import csv
-import math
 import os
 import shutil
 import signal
@@ -38,6 +36,7 @@ from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.core._signals import temporary_handler
 from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import LANGUAGES, N_, get_locale, gettext, use_locale
+from seisblock.output.io.workbook import convert_csv
 from seisblock.readers.discover import group_files
 from seisblock.readers.options import ReadOptions
 from seisblock.records.analytic import is_analytic
@@ -458,7 +457,7 @@ async def result_file(request: Request, tab: Tab) -> Response:
         raise HTTPException(404)
     command = job.arguments[0]
     if name.endswith(".xlsx"):
-        await asyncio.to_thread(write_workbook, job.folder / name.replace(".xlsx", ".csv"), job.folder / name)
+        await asyncio.to_thread(convert_csv, job.folder / name.replace(".xlsx", ".csv"), job.folder / name)
         return FileResponse(job.folder / name, filename=f"{command}-{name}")
     if name == "result.json":
         return FileResponse(job.folder / "stdout.txt", media_type="application/json", filename=f"{command}.json")
@@ -467,28 +466,6 @@ async def result_file(request: Request, tab: Tab) -> Response:
     if name.endswith(".csv"):
         return FileResponse(job.folder / name, media_type="text/csv; charset=utf-8", filename=f"{command}-{name}")
     return FileResponse(job.folder / name)
-
-
-def write_workbook(table: Path, target: Path) -> None:
-    """Write a CSV table of a command as an Excel workbook; a text that begins like a formula stays a text."""
-    from openpyxl import Workbook
-    from openpyxl.cell import WriteOnlyCell
-
-    book = Workbook(write_only=True)
-    sheet = book.create_sheet()
-
-    def cell(text: str) -> Any:
-        with contextlib.suppress(ValueError):
-            if math.isfinite(number := float(text)):
-                return number
-        entry = WriteOnlyCell(sheet, text)
-        entry.data_type = "s"
-        return entry
-
-    with table.open(encoding="utf-8-sig", newline="") as stream:
-        for row in csv.reader(stream):
-            sheet.append([cell(text) for text in row])
-    book.save(target)
 
 
 def bind(port: int | None) -> socket.socket:

@@ -23,6 +23,8 @@ from seisblock.cli import app as command
 from seisblock.cli import main
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import use_locale
+from seisblock.output.io.atomic import write_table
+from seisblock.output.io.workbook import convert_csv
 from seisblock.samples import sample_path
 
 IDS = [
@@ -207,10 +209,14 @@ def test_bind_listens_on_this_computer_only_and_names_a_used_port():
 
 
 def test_workbook_holds_numbers_and_texts_of_the_table_and_no_formula(tmp_path):
-    (tmp_path / "table.csv").write_text("\ufeffbody,share\n=1+1,0.25\n墓石,\n", encoding="utf-8")
-    server.write_workbook(tmp_path / "table.csv", tmp_path / "table.xlsx")
+    """The names 007, 1e3 and 1_0 of an inventory are no numbers, the apostrophe of the CSV is gone, and so are control characters."""
+    names = ["=1+1", "墓石", "007", "1e3", "1_0", "'=像", "a\x0bb", "12", "nan"]
+    write_table(tmp_path / "table.csv", ["body", "share"], [[name, 0.25 if name == "=1+1" else ""] for name in names], bom=True)
+    convert_csv(tmp_path / "table.csv", tmp_path / "table.xlsx")
     sheet = load_workbook(tmp_path / "table.xlsx").active
-    assert [[cell.value for cell in row] for row in sheet.rows] == [["body", "share"], ["=1+1", 0.25], ["墓石", None]]
+    values = [[cell.value for cell in row] for row in sheet.rows]
+    expected = ["=1+1", "墓石", "007", "1e3", "1_0", "'=像", "ab", 12, "nan"]
+    assert values == [["body", "share"], ["=1+1", 0.25], *([name, None] for name in expected[1:])]
     assert sheet["A2"].data_type == "s"
 
 

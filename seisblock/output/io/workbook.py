@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import csv
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 from unicodedata import east_asian_width
 
 from seisblock.core.errors import OutputError
+from seisblock.core.io.csv_safety import unescape_formula
 from seisblock.output.io.atomic import atomic_write
 
 MAX_COLUMN_WIDTH = 60
@@ -35,31 +38,52 @@ def write_workbook(path: Path | str, header: Sequence[str], rows: Iterable[Seque
         Texts, numbers or None.
     """
     import openpyxl
+    from openpyxl.cell import WriteOnlyCell
+    from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
     from openpyxl.styles import Alignment, Font
     from openpyxl.utils import get_column_letter
 
     check_workbook(path)
-    book = openpyxl.Workbook()
-    sheet = book.active
-    widths = [_width(text) for text in header]
-    for line, row in enumerate([header, *rows], start=1):
-        for column, value in enumerate(row, start=1):
-            cell = sheet.cell(line, column)
-            if isinstance(value, str):
-                # without the type, a text that begins with = would be a formula
-                cell.value = openpyxl.cell.cell.ILLEGAL_CHARACTERS_RE.sub("", value)
-                cell.data_type = "s"
-                widths[column - 1] = max(widths[column - 1], _width(value))
-            else:
-                cell.value = value
-            cell.alignment = Alignment(wrap_text=True, vertical="top")
-            if line == 1:
-                cell.font = Font(bold=True)
-    for column, width in enumerate(widths, start=1):
+    book = openpyxl.Workbook(write_only=True)
+    sheet = book.create_sheet()
+    table = [header, *rows]
+    # a sheet that is written row by row takes these first
+    for column, values in enumerate(zip(*table, strict=True), start=1):
+        width = max(_width(value) for value in values if isinstance(value, str))
         sheet.column_dimensions[get_column_letter(column)].width = min(width, MAX_COLUMN_WIDTH) + 2
     sheet.freeze_panes = "B2"
+    # each value is written before the cell takes the next one
+    heading, cell = WriteOnlyCell(sheet), WriteOnlyCell(sheet)
+    heading.font, heading.alignment = Font(bold=True), Alignment(wrap_text=True, vertical="top")
+    cell.alignment = heading.alignment.copy()
+
+    def cells(row: Sequence[Any], cell: Any) -> Iterator[Any]:
+        for value in row:
+            cell.value = ILLEGAL_CHARACTERS_RE.sub("", value) if isinstance(value, str) else value
+            if isinstance(value, str):
+                cell.data_type = "s"  # without the type, a text that begins with = would be a formula
+            yield cell
+
+    for line, row in enumerate(table):
+        sheet.append(cells(row, cell if line else heading))
     with atomic_write(path) as temporary:
         book.save(temporary)
+
+
+def convert_csv(table: Path, target: Path) -> None:
+    """Write a CSV table of a command as a workbook: its numbers as numbers, all other cells, such as the name 007, as texts."""
+    with table.open(encoding="utf-8-sig", newline="") as stream:
+        header, *rows = csv.reader(stream)
+    write_workbook(target, header, [[_parse_cell(text) for text in row] for row in rows])
+
+
+def _parse_cell(text: str) -> str | float | None:
+    """Return the value of a CSV cell, None if empty; a number is one that Python writes so."""
+    try:
+        number = float(text)
+    except ValueError:
+        return unescape_formula(text) or None
+    return number if math.isfinite(number) and text in (repr(number), f"{number:.0f}") else text
 
 
 def _width(text: str) -> int:
