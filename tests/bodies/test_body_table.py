@@ -29,6 +29,17 @@ def test_body_table_accepts_units_in_headings_or_cells(tmp_path):
     }
 
 
+def test_cell_in_quotes_may_have_several_lines(tmp_path):
+    """Its first line lost the cells to the right, without a word, and the others became bodies."""
+    text = '台帳\nname,kind,width (cm),height\n"a\n\n# ""old""","statue\n",12,40cm\n# note\nb,,24,1.6\n'
+    assert read_table(tmp_path, text) == {
+        'a # "old"': {"kind": "statue", "width": 0.12, "height": 0.4},
+        "b": {"width": 0.24, "height": 1.6},
+    }
+    with pytest.raises(BodyError, match="line 9: width"):
+        read_table(tmp_path, text + "c,,-1,1\n")
+
+
 @pytest.mark.parametrize("heading", ["μ", "\u00b5", "摩擦係数 μ", "Friction coefficient"])
 def test_friction_has_the_symbol_of_the_answers(tmp_path, heading):
     """``scenario`` ignored the column μ, as the program itself calls it, and assumed 0.2 to 0.7; ``batch`` refused it."""

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
-from seisblock.core.io.files import read_bytes
 from seisblock.core.units import LENGTH_UNITS, MASS_UNITS, parse_length
 
 UNIT_PATTERN = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
@@ -25,19 +22,14 @@ MAX_LISTED_ROWS = 5
 """Maximum number of further invalid rows listed in a message."""
 
 
-def read_text(path: Path, name: str) -> str:
-    """Return the text of a file in UTF-8 (with or without a byte order mark), Shift-JIS or UTF-16.
+def decode_text(data: bytes, name: str) -> str:
+    """Return the text of the content of a file in UTF-8 (with or without a byte order mark), Shift-JIS or UTF-16.
 
     Raises
     ------
     BodyError
-        If the file cannot be read or is not a text.
+        If it is not a text.
     """
-    return decode_text(read_bytes(path, name, BodyError), name)
-
-
-def decode_text(data: bytes, name: str) -> str:
-    """Return the text of the content of a file, see :func:`read_text`."""
     if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
         raise BodyError("{name} is not a text table: give a CSV file with one row per line", name=name)
     for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp932"):
@@ -46,26 +38,6 @@ def decode_text(data: bytes, name: str) -> str:
         except UnicodeDecodeError:
             continue
     raise BodyError("{name} is neither UTF-8 nor Shift-JIS: save it as CSV UTF-8", name=name)
-
-
-def data_lines(text: str) -> list[tuple[int, str]]:
-    """Return numbered lines without comments (#) and empty lines; the first one is the header."""
-    lines = enumerate(text.splitlines(), start=1)
-    return [(number, line) for number, line in lines if line.strip(" \t,;") and not line.lstrip().startswith("#")]
-
-
-def find_separator(header: str, default: str = ",") -> str:
-    """Return the separator of a table: comma, tab or semicolon; `default` for a line without any."""
-    return next((mark for mark in ",\t;" if mark in header), default)
-
-
-def split_cells(line: str, separator: str) -> list[str]:
-    """Return the cells of a line, normalised to NFKC."""
-    try:
-        cells = next(csv.reader([line], delimiter=separator), [])
-    except csv.Error as error:
-        raise BodyError("the line cannot be read as a table row: {error}", error=error) from error
-    return [normalize_cell(cell) for cell in cells]
 
 
 def normalize_cell(text: str) -> str:

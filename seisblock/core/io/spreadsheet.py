@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -11,15 +12,7 @@ from typing import Any
 
 from seisblock.core.errors import BodyError, InputError
 from seisblock.core.i18n import N_, Message
-from seisblock.core.io.csv_table import (
-    decode_text,
-    find_separator,
-    more_bad_rows,
-    normalize_cell,
-    parse_heading,
-    row_dict,
-    split_cells,
-)
+from seisblock.core.io.csv_table import decode_text, more_bad_rows, normalize_cell, parse_heading, row_dict
 from seisblock.core.io.files import read_bytes
 from seisblock.core.limits import MAX_CELLS, check_file_size, check_limit
 
@@ -139,18 +132,33 @@ def read_sheet(path: Path, name: str) -> Sheet:
 
 
 def text_sheet(text: str, source: str) -> Sheet:
-    """Return the rows of a CSV text; its separator is that of the first row."""
+    """Return the rows of a CSV text; its separator is that of the first row, and a cell in quotes may have several lines."""
+    lines = text.splitlines()
+    # a title above the header has no separator
+    separator = next((mark for line in lines if not _is_comment(line) for mark in ",\t;" if mark in line), ",")
     rows: list[Row] = []
-    notes = []
-    separator = ""
-    for number, line in enumerate(text.splitlines(), start=1):
-        if line.lstrip().startswith("#"):
-            notes.append((number, line.strip().lstrip("# ").rstrip()))
-        elif line.strip(" \t,;"):
-            # a title above the header has no separator
-            separator = separator or find_separator(line, default="")
-            rows.append((number, split_cells(line, separator or ",")))
+    notes: list[tuple[int, str]] = []
+    read: list[int] = []  # lines of the row being read
+
+    def content() -> Iterator[str]:
+        for number, line in enumerate(lines, start=1):
+            if _is_comment(line) and not read:
+                notes.append((number, line.strip().lstrip("# ").rstrip()))
+            elif line.strip(" \t,;") or read:
+                read.append(number)
+                yield f"{line}\n"
+
+    try:
+        for cells in csv.reader(content(), delimiter=separator):
+            rows.append((read[0], [normalize_cell(cell) for cell in cells]))
+            read.clear()
+    except csv.Error as error:
+        raise BodyError("the line cannot be read as a table row: {error}", error=error) from error
     return Sheet(source, tuple(rows), tuple(notes))
+
+
+def _is_comment(line: str) -> bool:
+    return line.lstrip().startswith("#")
 
 
 def _excel_rows(data: bytes, name: str) -> Iterator[Row]:

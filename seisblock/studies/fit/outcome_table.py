@@ -9,20 +9,10 @@ from pathlib import Path
 
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
-from seisblock.core.errors import BodyError, ComponentError, InputError, ParameterError, SeisblockError
+from seisblock.core.errors import BodyError, ComponentError, ParameterError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
-from seisblock.core.io.csv_table import (
-    FALSE_WORDS,
-    TRUE_WORDS,
-    data_lines,
-    find_separator,
-    more_bad_rows,
-    parse_heading,
-    parse_number_cell,
-    read_text,
-    row_dict,
-    split_cells,
-)
+from seisblock.core.io.csv_table import FALSE_WORDS, TRUE_WORDS, parse_heading, parse_number_cell
+from seisblock.core.io.spreadsheet import Sheet, read_sheet
 from seisblock.core.typing import Progress
 from seisblock.readers.discover import RecordSource, group_files
 from seisblock.readers.options import ReadOptions
@@ -225,7 +215,7 @@ def read_outcomes(
     """
     path, source = _path(name), str(name)
     try:
-        outcome_kind, rows, notes = _rows(read_text(path, source), source, kind)
+        outcome_kind, rows, notes = _rows(read_sheet(path, source), kind)
     except BodyError as error:  # raised by the table reader shared with bodies
         raise ParameterError(error.message) from error
     files = RecordCache(path.parent, preparation, read_options or ReadOptions(), strict)
@@ -261,25 +251,15 @@ def _path(name: Location) -> Path:
     return file
 
 
-def _rows(text: str, source: str, kind: str | None) -> tuple[str, list[_Row], list[str]]:
+def _rows(sheet: Sheet, kind: str | None) -> tuple[str, list[_Row], list[str]]:
     """Return the column in use, the rows with an outcome, and notes on the table."""
-    lines = data_lines(text)
-    if len(lines) < 2:
+    source = sheet.source
+    if len(sheet.rows) < 2:
         raise ParameterError("{source}: no outcome found; expected a header line, then one outcome per line", source=source)
-    (header_line, header), body = lines[0], lines[1:]
-    separator = find_separator(header)
-    cells = split_cells(header, separator)
+    (header_line, cells), body = sheet.rows[0], sheet.rows[1:]
     columns = [parse_heading(cell, _COLUMNS)[0] for cell in cells]
     outcome_kind = _outcome_column(columns, cells, source, header_line, kind)
-    rows, row_errors = [], []
-    for number, line in body:
-        try:
-            rows.append(_row(row_dict(columns, split_cells(line, separator)), outcome_kind, number))
-        except InputError as error:
-            row_errors.append((number, error.message))
-    if row_errors:
-        (line_number, message), other_lines = row_errors[0], more_bad_rows([number for number, _ in row_errors[1:]])
-        raise ParameterError("{source}, line {line}: {what}{others}", source=source, line=line_number, what=message, others=other_lines)
+    rows = sheet.parse_rows(columns, body, lambda row, line: _row(row, outcome_kind, line))
     known_rows = [row for row in rows if row.event is not None]
     if not known_rows:
         raise ParameterError("{source}: no outcome found; every cell of the column {column} is empty", source=source, column=outcome_kind)

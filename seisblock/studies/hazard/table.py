@@ -12,7 +12,8 @@ from typing import NamedTuple
 from seisblock.core import checks
 from seisblock.core.errors import BodyError, HazardError, InputError
 from seisblock.core.i18n import lazy_gettext
-from seisblock.core.io.csv_table import data_lines, find_separator, normalize_heading, parse_number_cell, read_text, row_dict, split_cells
+from seisblock.core.io.csv_table import normalize_heading, parse_number_cell, row_dict
+from seisblock.core.io.spreadsheet import Row, read_sheet
 from seisblock.core.units import ACCELERATION_UNITS, LENGTH_UNITS, VELOCITY_UNITS
 from seisblock.samples import resolve_file_or_sample
 from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
@@ -91,11 +92,11 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
     ('pgv', 'm/s', ['often', 'rare'])
     """
     try:
-        text = read_text(_path(path), str(path))
+        rows = read_sheet(_path(path), str(path)).rows
     except BodyError as error:
         raise HazardError("{text}", text=error.message) from None
     try:
-        return _hazard(text, None if im is None else intensity_measure(im))
+        return _hazard(rows, None if im is None else intensity_measure(im))
     except InputError as error:
         raise HazardError("{source}: {text}", source=Path(path).name, text=error.message) from None
 
@@ -106,16 +107,14 @@ def _path(name: str | Path) -> Path:
     return resolve_file_or_sample(path, "hazard") or path
 
 
-def _hazard(text: str, measure: IntensityMeasure | None) -> Hazard:
-    rows = data_lines(text)
+def _hazard(rows: Sequence[Row], measure: IntensityMeasure | None) -> Hazard:
     if len(rows) < 2:
         raise HazardError("the table is empty; expected a header and one line per level")
-    separator = find_separator(rows[0][1])
-    columns = _columns(split_cells(rows[0][1], separator), measure)
+    columns = _columns(rows[0][1], measure)
     rows_by_branch: dict[str, list[_Row]] = {}
     for line, cells in rows[1:]:
         try:
-            row = _row(row_dict(columns.names, split_cells(cells, separator)), columns)
+            row = _row(row_dict(columns.names, cells), columns)
         except InputError as error:
             raise HazardError("line {line}: {text}", line=line, text=error.message) from None
         rows_by_branch.setdefault(row.branch, []).append(row)

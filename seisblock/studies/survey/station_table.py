@@ -10,7 +10,8 @@ from pathlib import Path
 
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
-from seisblock.core.io.csv_table import data_lines, find_separator, normalize_heading, parse_number_cell, read_text, row_dict, split_cells
+from seisblock.core.io.csv_table import normalize_heading, parse_number_cell, row_dict
+from seisblock.core.io.spreadsheet import read_sheet
 from seisblock.core.units import GAL, KINE
 from seisblock.measures.frequency import pga_pgv_frequency
 
@@ -55,18 +56,17 @@ def read_stations(name: str | PathLike[str]) -> tuple[SurveyedStation, ...]:
     path = Path(name)
     if path.is_dir():
         raise BodyError("{name} is a folder: give a CSV file of stations", name=path)
-    lines = data_lines(read_text(path, str(path)))
-    if len(lines) < 2:
+    rows = read_sheet(path, str(path)).rows
+    if len(rows) < 2:
         raise BodyError("{name}: no stations; give a header and at least one line", name=path)
-    separator = find_separator(lines[0][1])
     meanings = {word: key for key, words in COLUMNS.items() for word in words}
-    header = [meanings.get(normalize_heading(cell), "") for cell in split_cells(lines[0][1], separator)]
+    header = [meanings.get(normalize_heading(cell), "") for cell in rows[0][1]]
     missing = [key for key in ("station", "pga", "rate") if key not in header]
     if not {"pgv", "frequency"} & set(header):
         missing.append("pgv/frequency")
     if missing:
         raise BodyError("{name}: missing columns: {missing}; expected station, pga, pgv or frequency, rate", name=path, missing=missing)
-    return tuple(_station(path, number, row_dict(header, split_cells(line, separator))) for number, line in lines[1:])
+    return tuple(_station(path, number, row_dict(header, cells)) for number, cells in rows[1:])
 
 
 def _station(path: Path, line: int, cells: Mapping[str, str]) -> SurveyedStation:
