@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from seisblock import _jit
-from seisblock._jit.vectors import subtract_product, subtract_row
+from seisblock._jit.vectors import multiply_columns, subtract_product, subtract_row
 
 _t = _jit.types()
 CUBE = _t.Array(_t.float64, 3, "C")
+ROW = _t.Array(_t.float64, 1, "C")
 FLAGS = _t.Array(_t.boolean, 1, "C")
 COUNTS = _t.Array(_t.int64, 2, "C")
 COLUMNS = _t.Array(_t.float64, 2, "A")
@@ -189,7 +190,7 @@ def test_vectors_of_six_are_rounded_as_loops():
     rng = np.random.default_rng(3)
     left, right, block = rng.normal(size=(3, 40))
 
-    @_jit.kernel(_t.void(*[_t.Array(_t.float64, 1, "C")] * 3))
+    @_jit.kernel(_t.void(*[ROW] * 3))
     def subtract(left, right, block):
         subtract_product(left, right, block)
         subtract_row(left[0], right, 2, block, 34)
@@ -201,3 +202,23 @@ def test_vectors_of_six_are_rounded_as_loops():
     expected[34:40] -= left[0] * right[2:8]
     subtract(left, right, block)
     assert (block == expected).all()
+
+
+@pytest.mark.kernel
+def test_columns_of_ten_are_multiplied_as_in_loops():
+    """Even and odd terms are added apart, in this order, with the constant column first."""
+    rng = np.random.default_rng(4)
+    matrix, state, load, product = rng.normal(size=180), rng.normal(size=20), rng.normal(size=(3, 2)), np.zeros(20)
+
+    @_jit.kernel(_t.void(ROW, ROW, _t.Array(_t.float64, 2, "C"), ROW))
+    def multiply(matrix, state, load, product):
+        multiply_columns(matrix, 5, state, 8, load, product)
+
+    columns, factors = matrix[5:175].reshape(17, 10), np.concatenate([state[8:18], load.ravel()])
+    even, odd = columns[0].copy(), np.zeros(10)
+    for k in range(0, 16, 2):
+        even, odd = even + columns[k + 1] * factors[k], odd + columns[k + 2] * factors[k + 1]
+    multiply(matrix, state, load, product)
+    assert (product[8:18] == even + odd).all()
+    assert not product[:8].any()
+    assert not product[18:].any()

@@ -1,4 +1,4 @@
-"""Vectors of six numbers, the block of a rigid body: operations that LLVM would carry out one number after another.
+"""Vectors of six numbers, the block of a rigid body, and of ten, the state of a block on springs: LLVM would take the numbers one by one.
 
 Each number is rounded as in the loops that stand for them without compilation.
 """
@@ -21,6 +21,15 @@ def subtract_row(factor: Any, source: Any, start: int, target: Any, at: int) -> 
     """Subtract a multiple of six numbers of one array from six of another."""
     for j in range(6):
         target[at + j] -= factor * source[start + j]
+
+
+def multiply_columns(matrix: Any, start: Any, state: Any, at: Any, load: Any, product: Any) -> None:
+    """Write a constant column plus ten columns times numbers of a state from `at` on and six times a load, of ten rows each."""
+    for i in range(10):
+        sums = [matrix[start + i], 0.0]
+        for k in range(16):
+            sums[k % 2] += matrix[start + 10 * (k + 1) + i] * (state[at + k] if k < 10 else load[(k - 10) // 2, k % 2])
+        product[at + i] = sums[0] + sums[1]
 
 
 if _jit.ENABLED:
@@ -72,3 +81,33 @@ if _jit.ENABLED:
             return context.get_dummy_value()
 
         return types.void(types.float64, source, types.intp, target, types.intp), generate
+
+    @intrinsic  # type: ignore[no-redef,untyped-decorator]
+    def multiply_columns(typing_context: Any, matrix: Any, start: Any, state: Any, at: Any, load: Any, product: Any) -> Any:
+        """Write a constant column plus ten columns times numbers of a state from `at` on and six times a load, of ten rows each."""
+
+        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            index = ir.IntType(64)
+            numbers, state, load, target = (
+                context.make_array(signature.args[i])(context, builder, arguments[i]).data for i in (0, 2, 4, 5)
+            )
+            start, at = arguments[1], arguments[3]
+            factors = [builder.load(builder.gep(state, [builder.add(at, index(k))])) for k in range(10)]
+            factors += [builder.load(builder.gep(load, [index(k)])) for k in range(6)]
+            # in lengths of the processor's vectors
+            for first_row, rows in ((0, 8), (8, 2)):
+                kind = ir.VectorType(ir.DoubleType(), rows)
+                columns = []
+                for k in range(17):
+                    place = builder.gep(numbers, [builder.add(start, index(10 * k + first_row))])
+                    columns.append(builder.load(builder.bitcast(place, kind.as_pointer()), align=8))
+                sums = [columns[0], ir.Constant(kind, [0.0] * rows)]
+                for k, factor in enumerate(factors):
+                    first = builder.insert_element(ir.Constant(kind, ir.Undefined), factor, ir.IntType(32)(0))
+                    spread = builder.shuffle_vector(first, first, ir.Constant(ir.VectorType(ir.IntType(32), rows), [0] * rows))
+                    sums[k % 2] = builder.fadd(sums[k % 2], builder.fmul(columns[k + 1], spread))
+                place = builder.gep(target, [builder.add(at, index(first_row))])
+                builder.store(builder.fadd(*sums), builder.bitcast(place, kind.as_pointer()), align=8)
+            return context.get_dummy_value()
+
+        return types.void(matrix, types.intp, state, types.intp, load, product), generate

@@ -29,15 +29,13 @@ class Forcing(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """Sizes of a model: scratch rows, guards, tracked states, order; 1 if it has size floors; exact guards; 1 if ``skip`` propagates."""
+    """Sizes of a model: scratch rows, guards, tracked states, order, exact guards."""
 
     scratch: int
     guards: int
     tracked: int
     order: int
-    has_floors: int
     sharp: int
-    propagates: int
 
 
 class State(NamedTuple):
@@ -129,7 +127,7 @@ class BatchState(NamedTuple):
 
 
 FORCING = _t.NamedTuple((READ_ONLY_MATRIX, VECTOR, _t.float64), Forcing)
-SHAPE = _t.NamedUniTuple(_t.int64, 7, Shape)
+SHAPE = _t.NamedUniTuple(_t.int64, 5, Shape)
 STATE = _t.NamedTuple((INTEGERS, VECTOR, VECTOR), State)
 OUTPUT = _t.NamedTuple((MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE, MATRIX), Output)
 SCRATCH = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR, VECTOR), Scratch)

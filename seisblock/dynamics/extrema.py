@@ -49,15 +49,20 @@ def may_exceed_extrema(c, i, degree, h, extrema):
     return c[i, 0] + bound > extrema[i, HIGHEST] or c[i, 0] - bound < extrema[i, LOWEST]
 
 
+@kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64, _t.float64, MATRIX, _t.float64, VECTOR, VECTOR, VECTOR), inline=True)
+def update_interior_extremum(c, i, degree, h, start_time, extrema, sign, rate, q, d):
+    """Update the extrema of state `i` with its first maximum (`sign` 1) or minimum (-1) inside a step."""
+    # derivative with the sign for which it is positive before the extremum
+    for k in range(degree):
+        rate[k] = sign * (k + 1) * c[i, k + 1]
+    # a derivative that starts below zero has no extremum ahead: the crossing is then at zero and is ignored
+    offset = first_crossing(rate, degree - 1, h, q, d)
+    if offset > 0.0:
+        update_extrema(extrema, i, evaluate_row(c, i, degree, offset), start_time + offset)
+
+
 @kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64, _t.float64, MATRIX, VECTOR, VECTOR, VECTOR))
 def update_interior_extrema(c, i, degree, h, start_time, extrema, rate, q, d):
     """Update the extrema of state `i` with its first maximum and first minimum inside a step."""
-    # derivative with the sign for which it is positive before a maximum (first pass) or minimum (second pass)
     for sign in (1.0, -1.0):
-        for k in range(degree):
-            rate[k] = sign * (k + 1) * c[i, k + 1]
-        # a derivative that starts below zero has no maximum ahead in this pass: the crossing is then at zero and is
-        # ignored
-        offset = first_crossing(rate, degree - 1, h, q, d)
-        if offset > 0.0:
-            update_extrema(extrema, i, evaluate_row(c, i, degree, offset), start_time + offset)
+        update_interior_extremum(c, i, degree, h, start_time, extrema, sign, rate, q, d)

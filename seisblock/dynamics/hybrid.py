@@ -8,8 +8,7 @@ zero crossing on the polynomial of the guard, calls the reset of the model, and 
 Order and step
     A series shorter than ``order`` is finite (rest, sliding, flight) and exact over the whole interval. For a series of full
     ``order`` the step is reduced until its last two terms are below ``TRUNCATION`` times the size of the state; at 100 Hz and
-    order 12 rocking needs no reduction, so that one interval is one step. A model may define floors, minimum sizes of its states for
-    this test: a motion that decays to round-off beside larger ones has no convergent series.
+    order 12 rocking needs no reduction, so that one interval is one step.
 Events
     A guard fires at the first time in (t0, t0 + h] from which it is negative. Grazing zero is not an event; a guard that a reset
     leaves at zero is judged by its first coefficient above round-off. Of guards that cross
@@ -70,9 +69,9 @@ TRUNCATION = 1.1e-16
 """Maximum last term of a series of full order, relative to the state."""
 
 
-@kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64, VECTOR, _t.int64))
-def step_length(c, n_states, order, h, p, floors):
-    """Return the step length up to `h` at which the series has converged; `floors` is the index of the floors in `p`, or -1."""
+@kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64))
+def step_length(c, n_states, order, h):
+    """Return the step length up to `h` at which the series has converged."""
     # the last two terms are tested, since the series of an even or odd state has zeros in between
     # h^(order - 1), scales the last two terms
     top = 1.0
@@ -83,8 +82,6 @@ def step_length(c, n_states, order, h, p, floors):
             continue
         # size of the state over the step, from its leading terms
         size = abs(c[i, 0]) + h * (abs(c[i, 1]) + h * (abs(c[i, 2]) + h * abs(c[i, 3])))
-        if floors >= 0:
-            size = max(size, p[floors + i])
         tail = top * max(abs(c[i, order - 1]), abs(c[i, order]) * h)
         if tail > TRUNCATION * size:
             # a state that starts from zero gets its size from the higher terms
@@ -179,21 +176,22 @@ def allocate_scratch(shape, n_states, rows):
 
 
 @kernel(_t.void(OUTPUT, _t.int64, VECTOR, _t.int64), inline=True)
-def _store_sample(output, sample, y, mode):
+def store_sample(output, sample, y, mode):
+    """Store state and mode at a sample."""
     for i in range(y.size):
         output.path[sample, i] = y[i]
     output.modes[sample] = mode
 
 
 @kernel(_t.void(OUTPUT, _t.int64, _t.int64, VECTOR), inline=True)
-def _store_limit(output, event, side, y):
+def store_limit(output, event, side, y):
     """Store the state before (side 0) or after (side 1) an event."""
     for i in range(y.size):
         output.limits[event, side, i] = y[i]
 
 
 @kernel(_t.void(OUTPUT, _t.int64, VECTOR, _t.float64), inline=True)
-def _store_dwell_time(output, mode, clock, time):
+def store_dwell_time(output, mode, clock, time):
     """Add the time since the last event to the dwell times of a mode and restart the clock."""
     if output.dwell_times.shape[0] > 0:
         dwell_time = time - clock[MODE_START]
@@ -248,8 +246,6 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     segment_start = counters[SEGMENT_START]
     last = acceleration.shape[1] - 1
     order = shape.order
-    # models with floors append one floor per state to their parameters
-    floors = p.size - y.size if shape.has_floors else -1
     stores_path = output.path.shape[0] > 0
     stores_events = times.size > 0
     n_flushed = counters[N_FLUSHED]
@@ -272,7 +268,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
         clock[MODE_START] = (segment_start + sample) * dt + tau
         init_extrema(extrema, shape.tracked, y, (segment_start + sample) * dt + tau)
         if stores_path and tau == 0.0:
-            _store_sample(output, sample, y, mode)
+            store_sample(output, sample, y, mode)
     status = RECORD_ENDED
     while sample < last and status == RECORD_ENDED:
         # pause between samples only, so that the result does not depend on the pauses
@@ -280,16 +276,15 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             status = PAUSED
             break
         # at rest: let the model look ahead for the first sample at which the motion can begin
-        if tau == 0.0 and (at_rest or shape.propagates != 0):
-            next_sample = skip(mode, acceleration, gains, sample, p, y, extrema, c, (segment_start + sample) * dt)
+        if tau == 0.0 and at_rest:
+            next_sample = skip(mode, acceleration, gains, sample, p)
             if next_sample > sample:
                 if stores_path:
                     for row in range(sample + 1, next_sample + 1):
-                        _store_sample(output, row, y, mode)
+                        store_sample(output, row, y, mode)
                 # skipped samples count against the slice, so that a long record at rest can still be interrupted
                 steps_left -= 1 + (next_sample - sample) // SKIPPED_PER_STEP
                 sample = next_sample
-                n_simultaneous = 0
                 continue
         read_forcing(forcing, sample, tau, f)
         min_steps_left = steps_left - MAX_STEPS_PER_SAMPLE
@@ -304,7 +299,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             # only a series of full order is truncated and may need a shorter step
             h = remaining
             if degree >= order:
-                h = step_length(c, y.size, order, remaining, p, floors)
+                h = step_length(c, y.size, order, remaining)
                 # a remainder this short is allowed to end the interval; a step this short elsewhere means that the
                 # series does not converge
                 if h < 1e-12 * dt and remaining > 1e-12 * dt:
@@ -338,7 +333,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                         # the tables are full within one sample interval; the caller starts again with larger ones
                         status = TOO_MANY_EVENTS
                         break
-                    _store_limit(output, n_events - n_flushed, 0, y)
+                    store_limit(output, n_events - n_flushed, 0, y)
                 # a guard negative without any step is a tie or a violated limit, not a crossing
                 below = h == 0.0 and g[guard, 0] < 0.0
                 if below:
@@ -361,13 +356,13 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                     events[row, EVENT_FROM] = mode
                     events[row, EVENT_TO] = next_mode
                     times[row] = tau
-                    _store_limit(output, row, 1, y)
+                    store_limit(output, row, 1, y)
                 # a reset may set a state beyond the extrema of the step
                 for i in range(shape.tracked):
                     update_extrema(extrema, i, y[i], (segment_start + sample) * dt + tau)
                 if n_events == 0:
                     clock[FIRST_EVENT_TIME] = (segment_start + sample) * dt + tau
-                _store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
+                store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
                 if transition_counts.shape[0] > 0:
                     transition_counts[guard, next_mode] += 1
                 n_events += 1
@@ -392,12 +387,12 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             sample += 1
             tau = 0.0
             if stores_path:
-                _store_sample(output, sample, y, mode)
+                store_sample(output, sample, y, mode)
     # end of a segment, not of the motion
     if status == RECORD_ENDED and counters[SAMPLES_AFTER] > 0:
         status = PAUSED
     if status == RECORD_ENDED:
-        _store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
+        store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
     # state of a pause: the next call continues from here, bit by bit
     counters[SAMPLE], counters[MODE], counters[N_EVENTS], counters[N_SIMULTANEOUS], counters[STEPS_LEFT] = (
         segment_start + sample,

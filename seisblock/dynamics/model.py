@@ -17,9 +17,9 @@ ORDER = 12
 
 
 @cache
-def advance_pointer() -> Any:
-    """Return the function pointer of the loop of one trajectory."""
-    return function_pointer(hybrid.advance, hybrid.ADVANCE)
+def loop_pointer(advance: Callable[..., Any]) -> Any:
+    """Return the function pointer of a loop of one trajectory."""
+    return function_pointer(advance, hybrid.ADVANCE)
 
 
 @dataclass(frozen=True)
@@ -42,14 +42,13 @@ class Model:
         Order of infinite series.
     skip : compiled function
         Function with the signature ``SKIP`` that passes over samples without motion or events.
-    has_floors : bool
-        True if the parameters end in one minimum size per state for the step length control.
     sharp : int
         Number of leading guards that are states set to exact values; small initial values of these are not treated as round-off.
     stride : compiled function or None
         Function with the signature ``STRIDE`` that advances many trajectories in parallel between events.
-    propagates : bool
-        True if ``skip`` also advances moving states from sample to sample.
+    advance : compiled function
+        Loop of one trajectory with the signature ``ADVANCE`` of :mod:`seisblock.dynamics.hybrid`; one of the model's own calls `series`,
+        `reset` and `skip` by rules of its own.
     """
 
     name: str
@@ -62,16 +61,15 @@ class Model:
     tracked: int = 1
     order: int = ORDER
     skip: Callable[..., Any] = hybrid.no_skip
-    has_floors: bool = False
     sharp: int = 0
     stride: Callable[..., Any] | None = None
-    propagates: bool = False
+    advance: Callable[..., Any] = hybrid.advance
 
     @cached_property
     def pointers(self) -> tuple[Any, Any, Any, Any]:
         """Function pointers of the engine's step loop, series, reset and skip."""
         return (
-            advance_pointer(),
+            loop_pointer(self.advance),
             function_pointer(self.series, hybrid.SERIES),
             function_pointer(self.reset, hybrid.RESET),
             function_pointer(self.skip, hybrid.SKIP),
@@ -86,4 +84,4 @@ class Model:
     @cached_property
     def shape(self) -> Shape:
         """Sizes of the model for the engine."""
-        return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.has_floors), self.sharp, int(self.propagates))
+        return Shape(self.scratch, len(self.guards), self.tracked, self.order, self.sharp)

@@ -22,15 +22,12 @@ RESET = _t.int64(_t.int64, _t.int64, VECTOR, MATRIX, VECTOR)
 CONSTANT = 0
 """Degree of a constant state."""
 
-SKIP = _t.int64(_t.int64, READ_ONLY_MATRIX, VECTOR, _t.int64, VECTOR, VECTOR, MATRIX, MATRIX, _t.float64)
-"""skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time) -> later sample up to which no guard fires.
-
-The state is constant up to there; or, for a model that propagates, the function advances ``y`` by one sample, and updates the extrema with
-the state at the end, if none lies inside. ``c`` is work space; ``start_time`` is that of the sample."""
+SKIP = _t.int64(_t.int64, READ_ONLY_MATRIX, VECTOR, _t.int64, VECTOR)
+"""skip(mode, acceleration, gains, sample, p) -> later sample up to which the state is constant and no guard fires."""
 
 
 @kernel(SKIP)
-def no_skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
+def no_skip(mode, acceleration, gains, sample, p):
     """Return the sample unchanged, for models without a state of rest."""
     return sample
 

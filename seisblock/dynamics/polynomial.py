@@ -83,7 +83,7 @@ def lower_bound_of_row(c, i, degree, h):
 
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64))
-def _bracketed_root(c, degree, high):
+def bracketed_root(c, degree, high):
     """Return the root in [0, high] of a polynomial that changes from positive to negative there.
 
     Safeguarded Newton iteration. It starts from the root of the quadratic part and ends at a relative step below ``NEWTON_TOLERANCE``.
@@ -192,7 +192,7 @@ def first_negative(g, degree, h, round_off, q, d):
                 width *= 0.5
                 continue
             if evaluate(q, n, width) < -noise:
-                root = start + _bracketed_root(q, n, width)
+                root = start + bracketed_root(q, n, width)
                 # a root closer to the start than the resolution of time belongs to the instant itself
                 return 0.0 if root < smallest else min(root, h)
         start += width

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.kernel
 
 
 @kernel(SKIP)
-def sled_skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
+def sled_skip(mode, acceleration, gains, sample, p):
     """Pass over the samples at which the sled holds."""
     if mode != STICK:
         return sample

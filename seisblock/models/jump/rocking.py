@@ -64,7 +64,7 @@ def rocking_series(mode, y, f, p, order, c, g):
 
 
 @kernel(SKIP)
-def rocking_skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
+def rocking_skip(mode, acceleration, gains, sample, p):
     """Return the last sample up to which a block at rest stays below its rocking threshold."""
     if mode != REST:
         return sample

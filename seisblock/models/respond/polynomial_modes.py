@@ -223,7 +223,7 @@ def release_slack(y, p, degree, c, g):
 
 
 @kernel(SKIP)
-def skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
+def skip(mode, acceleration, gains, sample, p):
     """Return the last sample up to which a body at rest stays at rest: the conditions are linear in the input."""
     if mode % TENON_OFFSET != REST:
         return sample

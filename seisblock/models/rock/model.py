@@ -206,7 +206,7 @@ def reset(mode, guard, y, f, p):
 
 
 @kernel(SKIP)
-def skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
+def skip(mode, acceleration, gains, sample, p):
     """Return the last sample up to which a block at rest stays below the rocking threshold."""
     if mode != REST:
         return sample

@@ -180,7 +180,7 @@ def _landing_mode(level, y, f, p):
 
 
 @kernel(SKIP)
-def skip(mode, acceleration, gains, sample, p, y, extrema, c, start_time):
+def skip(mode, acceleration, gains, sample, p):
     """Return the last sample up to which a sticking body stays within both limits of static friction."""
     if mode % LEVEL != STICK:
         return sample

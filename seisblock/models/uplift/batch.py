@@ -14,7 +14,7 @@ from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate_many
 from seisblock.models.uplift.batch_results import UpliftBatchResult, batch_end_states, batch_result
 from seisblock.models.uplift.constants import ALL_CORNERS, FIRST, GLUED
-from seisblock.models.uplift.model import UPLIFT, UPLIFT_REPEAT, parameters, static_state
+from seisblock.models.uplift.model import UPLIFT, parameters, static_state, with_round_off
 from seisblock.records._validation import validate_motion
 from seisblock.records.motion import Motion
 
@@ -65,8 +65,8 @@ def uplift_many(
     if len(lifted):
         # without uplift a run is the linear one, in which round-off does not grow
         gains_lifted = rows if len(rows) == 1 else rows[lifted]
-        for model, mode, extrema in ((UPLIFT_REPEAT, ALL_CORNERS, repeat), (UPLIFT, GLUED, linear)):
-            run = integrate_many(model, motion, p[lifted], initial_states[lifted], mode, gains=gains_lifted, allow_failures=True)
+        for rows_p, mode, extrema in ((with_round_off(p), ALL_CORNERS, repeat), (p, GLUED, linear)):
+            run = integrate_many(UPLIFT, motion, rows_p[lifted], initial_states[lifted], mode, gains=gains_lifted, allow_failures=True)
             extrema[lifted] = run.extrema
             gave_up[lifted] |= run.failed
     return batch_result(all_bodies, batch_end_states(ensemble), linear, repeat, gravity, gave_up)
