@@ -54,8 +54,8 @@ def write_workbook(path: Path | str, header: Sequence[str], rows: Iterable[Seque
     sheet.freeze_panes = "B2"
     # each value is written before the cell takes the next one
     heading, cell = WriteOnlyCell(sheet), WriteOnlyCell(sheet)
-    heading.font, heading.alignment = Font(bold=True), Alignment(wrap_text=True, vertical="top")
-    cell.alignment = heading.alignment.copy()
+    heading.font = Font(bold=True)
+    heading.alignment = cell.alignment = Alignment(wrap_text=True, vertical="top")
 
     def cells(row: Sequence[Any], cell: Any) -> Iterator[Any]:
         for value in row:

@@ -133,26 +133,20 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
         )
     if not rows:
         raise BodyError("{name}: the list of surveys is empty", name=name)
-    return tuple(
-        _place(Path(name), line, {key: dict(zip(columns, cells, strict=False)).get(key, "") for key in COLUMNS}) for line, cells in rows
-    )
+    return tuple(sheet.parse_rows(columns, rows, _place))
 
 
-def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
+def _place(row: dict[str, str], line: int) -> SurveyedPlace:
+    place, *numbers = cells = [row.get(key, "") for key in COLUMNS]
     try:
-        latitude, longitude = float(cells["latitude"]), float(cells["longitude"])
-        stones, fallen = int(cells["stones"]), int(cells["fallen"])
+        latitude, longitude, stones, fallen = *map(float, numbers[:2]), *map(int, numbers[2:])
     except ValueError:
-        raise BodyError("{name}, line {line}: expected degrees and whole numbers of stones, found {found}", name=path, line=line,
-                        found=list(cells.values())) from None  # fmt: skip
+        raise BodyError("expected degrees and whole numbers of stones, found {found}", found=cells) from None
     if valid_coordinates(latitude, longitude) is None:
-        raise BodyError("{name}, line {line}: {place}: {latitude}, {longitude} is not a valid position", name=path, line=line,
-                        place=cells["place"], latitude=latitude, longitude=longitude)  # fmt: skip
+        raise BodyError("{place}: {latitude}, {longitude} is not a valid position", place=place, latitude=latitude, longitude=longitude)
     if not 0 <= fallen <= stones or stones == 0:
-        raise BodyError(
-            "{name}, line {line}: {fallen} of {stones} stones overturned is impossible", name=path, line=line, fallen=fallen, stones=stones
-        )
-    return SurveyedPlace(cells["place"] or lazy_gettext("line {line}", line=line), latitude, longitude, stones, fallen)
+        raise BodyError("{fallen} of {stones} stones overturned is impossible", fallen=fallen, stones=stones)
+    return SurveyedPlace(place or lazy_gettext("line {line}", line=line), latitude, longitude, stones, fallen)
 
 
 def compare_surveys(places: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery) -> tuple[SurveyComparison, ...]:
