@@ -57,6 +57,30 @@ def test_separators_comments_and_line_ends_are_accepted(table, separator, end):
     assert record.dt == 0.01
 
 
+@pytest.mark.parametrize("per_line", [2, 3, 5, 8, 10])
+@pytest.mark.parametrize("separator", [",", " "])
+@pytest.mark.parametrize("ending", ["", "\n"])
+def test_one_series_with_several_samples_per_line_is_one_component(table, per_line, separator, ending):
+    """Samples of real motion, whatever the number in the last line; columns read downwards would be other, shorter motions."""
+    samples = np.round(100.0 * read("hanmer_springs_2016").component("10").acceleration[9000:12001], 3)
+    lines = [separator.join(f"{x:.3f}" for x in samples[i : i + per_line]) for i in range(0, samples.size, per_line)]
+    record = read(table("\n".join(lines) + ending), units="gal", dt=0.005)
+    assert (record.codes, record.samples, record.doubts) == (("ACC",), 3001, ())
+    np.testing.assert_allclose(100.0 * record.components[0].acceleration, samples, atol=1e-9)
+    assert f"{per_line} samples per line" in str(record.history[0])
+
+
+def test_components_without_names_stay_components(table):
+    """Of one station, or copies of each other; a cut last line is an error."""
+    real = [100.0 * component.acceleration[9000:10000] for component in read("hanmer_springs_2016").components]
+    for columns in (real, real[:2], [real[0], real[0]], [real[0], 0.9 * real[0], 0.5 * real[0]]):
+        lines = [",".join(f"{x:.3f}" for x in row) for row in zip(*columns, strict=True)]
+        record = read(table("\n".join(lines) + "\n"), units="gal", dt=0.005)
+        assert (record.codes, record.samples) == (tuple(f"C{i + 1}" for i in range(len(columns))), 1000)
+        with pytest.raises(RecordFormatError, match="line 1000"):
+            read(table("\n".join([*lines[:-1], "1.0"])), units="gal", dt=0.005)
+
+
 def test_decimal_commas_with_semicolons_are_accepted(table):
     """A spreadsheet of the continent: semicolons and decimal commas."""
     record = read(table("time;NS (g)\n0,00;0,5\n0,02;-0,25\n0,04;1\n"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta
 from functools import partial
@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 
 from seisblock.core.errors import InputError, ParameterError, RecordFormatError, UnitError
-from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._header import JST
 from seisblock.readers._header_check import qc_flag
@@ -25,6 +25,7 @@ from seisblock.readers.table.layout import (
     FORTRAN_EXPONENT,
     INSPECTED_LINES,
     TIME_HEADING,
+    TableLayout,
     find_layout,
     guess_first_name,
     is_data_line,
@@ -36,6 +37,12 @@ from seisblock.readers.table.sampling import Timestamp, parse_timestamp, samplin
 from seisblock.records import Component, QCFlag, Record
 
 _QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
+MIN_SERIES_LINES = 20
+"""Fewest lines in which one series with several samples per line is recognised."""
+
+SERIES_STEP_RATIO = 0.75
+"""Largest mean step in the order of reading, in mean steps down a column, of one series with several samples per line."""
+
 _TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s")
 
 
@@ -45,8 +52,9 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
     Cells are separated by commas, semicolons (decimal comma allowed), tabs or blanks; ``#`` begins a comment. The first line may name the
     columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or units in a line
     below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock time with a date
-    (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time. `units` is the unit of columns
-    without one, `dt` the sampling interval, s, of a table without a time column.
+    (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time, and columns
+    that continue each other line by line are one series. `units` is the unit of columns without one, `dt` the sampling interval, s, of a
+    table without a time column.
 
     Raises
     ------
@@ -79,9 +87,13 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
         raise _missing_interval_error(blob.name)  # before reading the numbers, which may take long
     first_timestamp, body = _replace_timestamps(columns, body, layout.separator)
     labels = {c.label if layout.names.count(c.label) == 1 else f"number {c.index + 1}": c.index for c in columns.columns}
-    rows = parse_columns(blob.name, body, layout.body + 1, labels, len(layout.names), layout.separator)
-    if not has_names:
+    series_notes: tuple[Message, ...] = ()
+    if has_names:
+        rows = parse_columns(blob.name, body, layout.body + 1, labels, len(layout.names), layout.separator)
+    else:
+        rows, series_notes = _read_unnamed(blob.name, body, layout, labels)
         columns = _guess_columns(blob.name, rows, units)
+        columns = replace(columns, notes=(*series_notes, *columns.notes))
     pairs = list(zip(columns.columns, rows, strict=True))
     metadata: dict[str, object] = {}
     for column, row in pairs:
@@ -100,10 +112,12 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
         )
     start, start_notes = _start_time(first_timestamp, _zone_offset_s(columns))
     has_time = any(column.code == TIME for column in columns.columns)
-    flags = _qc_flags(lines, layout.body, has_time=has_time) + flag_missing_points(body, layout.body + 1, layout.separator)
+    flags = _qc_flags(lines, layout.body, has_time=has_time, short_end=bool(series_notes)) + flag_missing_points(
+        body, layout.body + 1, layout.separator
+    )
     flags += flag_comment_mismatch(lines[: layout.body], columns.columns, rows[0].size, dt)
     # one flag for a truncated end is enough
-    if not any(flag.kind == "cut" for flag in flags):
+    if not series_notes and not any(flag.kind == "cut" for flag in flags):
         flags += flag_truncated_end(body, layout.separator)
     return Record(
         tuple(components),
@@ -161,8 +175,8 @@ def _missing_interval_error(name: str) -> ParameterError:
     return ParameterError("{name}: no time column: give the sampling interval with `dt`, for example 0.01 s", name=name)
 
 
-def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFlag, ...]:
-    """Return flags for empty lines in a table without times and for a truncated last line."""
+def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool, short_end: bool = False) -> tuple[QCFlag, ...]:
+    """Return flags for empty lines in a table without times and for a truncated last line; with `short_end` that may be a short one."""
     flags = []
     last = next(i for i in reversed(range(len(lines))) if is_data_line(lines[i]))
     empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
@@ -171,7 +185,8 @@ def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFla
             "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early"
         )
         flags.append(qc_flag(message, "line", count=len(empty_lines), line=empty_lines[0]))
-    if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
+    is_last_open = last == len(lines) - 1 and last > body + 2 and not short_end
+    if is_last_open and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
         flags.append(qc_flag("last line shortest and without line end: file probably truncated, last number incomplete", "cut"))
     return tuple(flags)
 
@@ -195,6 +210,34 @@ def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> 
         raise UnitError(message, name=name, column=1 + has_time)
     columns = parse_header(name, names, units)
     return TableColumns(columns.columns, (lazy_gettext(_TIME_GUESSED_NOTE),) if has_time else ())
+
+
+def _read_unnamed(
+    name: str, body: Sequence[str], layout: TableLayout, labels: Mapping[str, int]
+) -> tuple[list[FloatArray], tuple[Message, ...]]:
+    """Return the columns of a table without names, and history notes; one series with several samples per line becomes one column."""
+    width, first_line = len(layout.names), layout.body + 1
+    last = next(i for i in reversed(range(len(body))) if body[i].strip())
+    rest = body[last].rstrip(" \t" + (layout.separator or "")).split(layout.separator)
+    whole = body[:last] if last > 0 and len(rest) < width else body
+    rows = parse_columns(name, whole, first_line, labels, width, layout.separator)
+    if _is_one_series(rows):
+        indices = {str(i): i for i in range(len(rest))}
+        end = [] if whole is body else parse_columns(name, body[last:], first_line + last, indices, len(rest), layout.separator)
+        note = lazy_gettext("one series with {count} samples per line, read line by line", count=width)
+        return [np.concatenate([np.stack(rows, axis=1).ravel(), *end])], (note,)
+    return (rows if whole is body else parse_columns(name, body, first_line, labels, width, layout.separator)), ()
+
+
+def _is_one_series(rows: Sequence[FloatArray]) -> bool:
+    """Return whether columns are one series written line by line: steps along and across lines are alike, smaller than down the columns."""
+    if len(rows) < 2 or rows[0].size < MIN_SERIES_LINES:
+        return False
+    table = np.stack(rows, axis=1)
+    across = np.abs(table[1:, 0] - table[:-1, -1]).mean()
+    steps = [across, *np.abs(np.diff(table, axis=1)).mean(axis=0)]
+    down = np.abs(np.diff(table, axis=0)).mean()
+    return bool(0.0 < max(steps) <= SERIES_STEP_RATIO * down and max(steps) <= 2.0 * min(steps))
 
 
 def _column_interval(name: str, column: Column, row: FloatArray, body: Sequence[str], separator: str | None, dt: float | None) -> float:
