@@ -13,6 +13,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -24,7 +25,7 @@ from seisblock.bodies.block import Block
 from seisblock.core.errors import OutputError
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.report.exports.identifiers import ascii_identifiers
-from seisblock.report.exports.openquake import NAMESPACE, imt_of, lognormal_moments, nrml, pool_adjacent_violators
+from seisblock.report.exports.openquake import NAMESPACE, imt_of, lognormal_moments, nrml
 from seisblock.report.exports.pelicun import demand_of, pelicun_metadata, pelicun_rows
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.run import run_fragility
@@ -90,6 +91,23 @@ def peer(package, script, *words):
 def of(study, body, limit):
     """Return one curve."""
     return next(curve for curve in study.curves if (curve.body, curve.limit) == (body, limit))
+
+
+def rising(levels):
+    """Return the isotonic fit to the fractions of some levels by its max-min formula."""
+    runs, exceeding = ([getattr(level, name) for level in levels] for name in ("runs", "exceeding"))
+    ends = range(1, len(levels) + 1)
+    return [max(min(sum(exceeding[i:j]) / sum(runs[i:j]) for j in ends if j > k) for i in range(k + 1)) for k in range(len(levels))]
+
+
+def test_discrete_shares_that_fall_are_pooled_with_their_runs(study):
+    """Of 6 in 10 runs and 1 in 2, where the others were stopped, 7 in 12 remain, not the mean of .6 and .5."""
+    curve = study.curves[0]
+    levels = tuple(replace(level, runs=10, exceeding=9) for level in curve.levels)
+    levels = tuple(replace(level, runs=r, exceeding=e) for level, r, e in zip(levels, (10, 10, 2), (0, 6, 1), strict=False)) + levels[3:]
+    model = ElementTree.fromstring(nrml(replace(study, curves=(replace(curve, levels=levels),)), shape="discrete"))
+    shares = [float(word) for word in model.find(f".//{{{NAMESPACE}}}poes").text.split()]
+    assert shares == pytest.approx(rising(levels), abs=1e-9) and shares[:4] == pytest.approx([0.0, 7 / 12, 7 / 12, 0.9])
 
 
 def test_dlml_reads_exported_rows(study, files):
@@ -183,9 +201,7 @@ def test_openquake_functions_equal_curves(shape, study, files):
         assert result[name]["imt"] == "PGA"
         for state, limit in (("lean_0_5", "lean=0.5"), ("overturn", "overturn")):
             curve = of(study, body, limit)
-            shares = np.interp(
-                levels, [item.im for item in curve.levels], pool_adjacent_violators([item.exceeding / item.runs for item in curve.levels])
-            )
+            shares = np.interp(levels, [item.im for item in curve.levels], rising(curve.levels))
             expected = curve.curve.probability(levels) if shape == "continuous" else shares
             assert result[name][state] == pytest.approx(expected, abs=1e-9)
 

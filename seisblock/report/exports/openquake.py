@@ -94,6 +94,8 @@ def _add_function(
     model: ElementTree.Element, name: str, imt: str, curves: Sequence[Fragility], states: Sequence[str], size: float, *, continuous: bool
 ) -> None:
     """Add the fragility function of one body to the model."""
+    from scipy.optimize import isotonic_regression
+
     levels = [level.im / size for level in curves[0].levels]
     if continuous:
         function = ElementTree.SubElement(model, "fragilityFunction", id=name, format="continuous", shape="logncdf")
@@ -108,7 +110,9 @@ def _add_function(
     function = ElementTree.SubElement(model, "fragilityFunction", id=name, format="discrete")
     ElementTree.SubElement(function, "imls", imt=imt).text = " ".join(map(_format_number, levels))
     for state, fragility in zip(states, curves, strict=True):
-        shares = pool_adjacent_violators([level.exceeding / level.runs for level in fragility.levels])
+        runs = [level.runs for level in fragility.levels]
+        # the most likely fractions of those that do not fall
+        shares = isotonic_regression([level.exceeding / level.runs for level in fragility.levels], weights=runs).x
         ElementTree.SubElement(function, "poes", ls=state).text = " ".join(map(_format_number, shares))
 
 
@@ -121,21 +125,3 @@ def lognormal_moments(curve: Lognormal) -> tuple[float, float]:
     """Return mean, median exp(beta^2/2), and standard deviation, mean sqrt(exp(beta^2) - 1), of a lognormal (derived here)."""
     mean = curve.median * math.exp(curve.beta**2 / 2.0)
     return mean, mean * math.sqrt(math.expm1(curve.beta**2))
-
-
-def pool_adjacent_violators(shares: Sequence[float]) -> list[float]:
-    """Return the isotonic least-squares fit to fractions (pool adjacent violators).
-
-    Examples
-    --------
-    >>> pool_adjacent_violators([0.0, 0.5, 0.25, 1.0])
-    [0.0, 0.375, 0.375, 1.0]
-    """
-    pools: list[tuple[float, int]] = []
-    for share in shares:
-        pools.append((share, 1))
-        # merge decreasing neighbours into their weighted mean until the sequence is monotonic
-        while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
-            (a, m), (b, n) = pools[-2:]
-            pools[-2:] = [((m * a + n * b) / (m + n), m + n)]
-    return [value for value, count in pools for _ in range(count)]
