@@ -139,7 +139,8 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
 def _place(row: dict[str, str], line: int) -> SurveyedPlace:
     place, *numbers = cells = [row.get(key, "") for key in COLUMNS]
     try:
-        latitude, longitude, stones, fallen = *map(float, numbers[:2]), *map(int, numbers[2:])
+        latitude, longitude = map(float, numbers[:2])
+        stones, fallen = map(int, numbers[2:])
     except ValueError:
         raise BodyError("expected degrees and whole numbers of stones, found {found}", found=cells) from None
     if valid_coordinates(latitude, longitude) is None:
