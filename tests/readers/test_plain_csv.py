@@ -70,6 +70,19 @@ def test_one_series_with_several_samples_per_line_is_one_component(table, per_li
     assert f"{per_line} samples per line" in str(record.history[0])
 
 
+@pytest.mark.parametrize("title", ["Some title of a wave", "Hachinohe NS 1968\nsecond line of title", "八戸港湾 EW 成分"])
+@pytest.mark.parametrize("per_line", [1, 8])
+def test_title_above_unnamed_numbers_is_no_header(table, title, per_line):
+    """The message says where the numbers begin and what to do with the title; done, the file is read."""
+    samples = np.round(100.0 * read("hanmer_springs_2016").component("10").acceleration[9000:9800], 3)
+    numbers = "".join(" ".join(f"{x:.3f}" for x in row) + "\n" for row in samples.reshape(-1, per_line))
+    line = title.count("\n") + 2
+    with pytest.raises(RecordFormatError, match=rf"numbers begin in line {line}, below .*; begin the lines above with #\Z"):
+        read(table(f"{title}\n{numbers}"), units="gal", dt=0.005)
+    commented = "".join(f"# {text}\n" for text in title.split("\n"))
+    assert read(table(commented + numbers), units="gal", dt=0.005).samples == 800
+
+
 def test_components_without_names_stay_components(table):
     """Of one station, or copies of each other; a cut last line is an error."""
     real = [100.0 * component.acceleration[9000:10000] for component in read("hanmer_springs_2016").components]

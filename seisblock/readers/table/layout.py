@@ -100,16 +100,31 @@ def looks_like_csv(lines: Sequence[str]) -> bool:
 
 
 def preamble_error(name: str, lines: Sequence[str]) -> RecordFormatError | None:
-    """Return the error of a table below lines that are not comments, or None."""
+    """Return the error of a table, or of numbers without names, below lines that are not comments; None if there is none."""
     head = lines[:MAX_PREAMBLE_LINES]
     table_line = next((table_line for table_line in range(len(head)) if is_table_start(head[table_line:])), None)
     first = next((line.strip() for line in head if is_data_line(line)), "")
-    if table_line is None or head[table_line].strip() == first:
+    if table_line is None:
+        return _title_error(name, head, first)
+    if head[table_line].strip() == first:
         return None
     message = "{name}: column names found in line {line} ({header!r}), below {first!r}; remove the lines above or begin each with #"
     return RecordFormatError(
         message, name=name, line=table_line + 1, header=head[table_line].strip()[:MAX_QUOTED_LENGTH], first=first[:MAX_QUOTED_LENGTH]
     )
+
+
+def _title_error(name: str, head: Sequence[str], first: str) -> RecordFormatError | None:
+    """Return the error of nothing but numbers below a title: a first line with another number of words than the numbers have cells."""
+    is_numeric = {i: _is_numeric_row(line, find_separator(line)) for i, line in enumerate(head) if is_data_line(line)}
+    numbers = next((i for i, numeric in is_numeric.items() if numeric), None)
+    if numbers is None or not all(numeric for i, numeric in is_numeric.items() if i > numbers):
+        return None
+    counts = [len(_split_cells(line, find_separator(line))) for line in (first, head[numbers])]
+    if counts[0] == counts[1]:
+        return None
+    message = "{name}: numbers begin in line {line}, below {first!r}, which does not name the columns; begin the lines above with #"
+    return RecordFormatError(message, name=name, line=numbers + 1, first=first[:MAX_QUOTED_LENGTH])
 
 
 def is_table_start(lines: Sequence[str]) -> bool:
