@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -15,7 +15,7 @@ from seisblock.bodies.friction import SURFACES, surface
 from seisblock.bodies.kinds import KINDS
 from seisblock.bodies.scan.mesh import SUFFIXES
 from seisblock.core.errors import ParameterError
-from seisblock.core.i18n import N_, gettext
+from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.options import OptionField, option_fields, plain_help
 from seisblock.models.respond.options import RespondOptions
 
@@ -46,7 +46,14 @@ UNKNOWN_FRICTION = 0.4
 """Friction of an object for which none is given, as in :data:`seisblock.studies.scenario.assess.UNKNOWN_FRICTION`."""
 
 SCENARIO_TABLE = "object.csv"
-"""Table of an object given by sizes, for a scenario."""
+"""Table of an object, for a scenario."""
+
+SCENARIO_COLUMNS = {"--block": "body", "--width": "width", "--height": "height", "--kind": "kind", "--mu": "mu", "--surface": "surface"}
+SCENARIO_COLUMNS |= {f"--{name.replace('_', '-')}": name for name in ("mu_kinetic", "restitution", "rocking_restitution", "tenon")}
+"""Columns of a table of objects by the options of ``respond``."""
+
+SCENARIO_FLAGS = ("--vertical", "--no-vertical", "--gravity")
+"""Other options of ``respond`` that ``scenario`` has, too."""
 
 RECORD_FIELDS = {"station": "--station", "units": "--units", "dt": "--dt"}
 """Fields of a record's form with their options."""
@@ -249,16 +256,26 @@ def surface_labels() -> dict[str, str]:
     return {pair: f"{pair} (μ {surface.mu:g})" for pair, surface in SURFACES.items()}
 
 
-def write_scenario_object(form: Mapping[str, str], body: list[str], folder: Path) -> str:
-    """Return the argument ``--bodies`` of an object of a scenario; sizes are written to a table in the folder."""
-    options = dict(zip(body[::2], body[1::2], strict=True))
-    if "--block" in options:
-        return options["--block"]
-    mu = options.get("--mu") or (str(surface(options["--surface"]).mu) if "--surface" in options else "")
-    row = (gettext("object"), options.get("--width", ""), options.get("--height", ""), options.get("--kind", "block"), mu)
+def scenario_object(arguments: Sequence[str], folder: Path) -> tuple[str, ...]:
+    """Return the arguments of an object in a scenario from those of ``respond``; its values are written to a table in the folder.
+
+    Raises
+    ------
+    ParameterError
+        If a scenario has no such option.
+    """
+    _, options = split_arguments(tuple(arguments))
+    row = {column: options[flag] for flag, column in SCENARIO_COLUMNS.items() if flag in options}
+    others = {flag: value for flag, value in options.items() if flag not in SCENARIO_COLUMNS}
+    if unknown := [flag for flag in others if flag not in SCENARIO_FLAGS]:
+        raise ParameterError("{flags} has no effect with {what}: omit one of them", flags=unknown, what=lazy_gettext("JMA intensity"))
+    line = tuple(text for item in others.items() for text in item if text)
+    if row.keys() == {"body"}:
+        return ("--bodies", row["body"], *line)
+    name = Path(row["body"]).stem if "body" in row else gettext("object")
     with (folder / SCENARIO_TABLE).open("w", encoding="utf-8", newline="") as stream:
-        csv.writer(stream).writerows([("name", "width", "height", "kind", "mu"), row])
-    return SCENARIO_TABLE
+        csv.writer(stream).writerows([("name", *row), (name, *row.values())])
+    return ("--bodies", SCENARIO_TABLE, *line)
 
 
 def report_arguments(line: tuple[str, ...]) -> tuple[str, ...]:

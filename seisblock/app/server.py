@@ -309,13 +309,12 @@ async def run_object(request: Request, tab: Tab) -> Response:
         tab.body_files = tuple(names)
     body = forms.body_arguments(fields, tab.body_files)
     first = forms.scan_arguments(fields, tab.body_files)
-    floor = forms.floor_arguments(fields)
+    floor, options = forms.floor_arguments(fields), forms.solver_arguments(fields)
     if tab.intensity:
-        object_file = forms.write_scenario_object(fields, body, tab.files)
-        line = ("scenario", "--jma", tab.intensity, *floor, "--bodies", object_file)
+        line = ("scenario", "--jma", tab.intensity, *floor, *forms.scenario_object([*body, *options], tab.files))
         outputs = {"--plot": "figure.png", "--csv": "objects.csv", "--html": "report.html"}
     else:
-        line = ("respond", *tab.record, *body, *floor, *forms.solver_arguments(fields))
+        line = ("respond", *tab.record, *body, *floor, *options)
         outputs = {"--plot": "figure.png", "--csv": "histories.csv"}
     tab.form = fields
     for kind in ("film", "report"):

@@ -7,10 +7,11 @@ from click.testing import CliRunner
 
 from seisblock.app import forms
 from seisblock.app.views import python_lines
+from seisblock.bodies.table import read_bodies
 from seisblock.cli import main
 from seisblock.core.errors import ParameterError
 from seisblock.models.respond.options import RespondOptions
-from seisblock.studies.scenario.assess import UNKNOWN_FRICTION
+from seisblock.studies.scenario.assess import UNKNOWN_FRICTION, scenario_bodies
 
 
 def test_sizes_without_unit_are_centimetres_and_a_bare_block_names_no_kind():
@@ -50,10 +51,29 @@ def test_fields_of_solver_options_follow_the_dataclass():
     assert line == ["--restitution", "0.2", "--no-vertical"]
 
 
-def test_object_of_a_scenario_is_a_table_or_a_bundled_name(tmp_path):
-    assert forms.write_scenario_object({}, ["--block", "statue"], tmp_path) == "statue"
-    name = forms.write_scenario_object({}, ["--width", "45cm", "--height", "180cm", "--surface", "wood/wood"], tmp_path)
-    assert (tmp_path / name).read_text().splitlines() == ["name,width,height,kind,mu", "object,45cm,180cm,block,0.5"]
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("--block statue", {}),
+        ("--block statue --mu 0.2 --restitution 0.1", {"mu": 0.2, "restitution": 0.1}),
+        ("--block gravestone --surface wood/wood", {"mu": 0.5, "mu_kinetic": 0.3}),
+        ("--width 45cm --height 180cm --surface wood/wood", {"mu": 0.5, "mu_kinetic": 0.3}),
+        ("--width 45cm --height 180cm --mu 0.3 --mu-kinetic 0.2 --tenon 2cm", {"mu": 0.3, "mu_kinetic": 0.2, "tenon": 0.02}),
+    ],
+)
+def test_object_of_a_scenario_is_that_of_the_response(line, expected, tmp_path, monkeypatch):
+    """A bundled object lost the friction of the user, any object its kinetic friction and all other options."""
+    monkeypatch.chdir(tmp_path)
+    _, bodies, *others = forms.scenario_object([*line.split(), "--no-vertical", "--gravity", "9.7"], tmp_path)
+    assert others == ["--no-vertical", "--gravity", "9.7"]
+    (body,), _ = scenario_bodies(read_bodies([bodies]), {})
+    assert {name: getattr(body.options, name) for name in expected} == expected
+    assert (bodies == "statue") is (expected == {}) and body.name == ("object" if "width" in line else line.split()[1])
+
+
+def test_option_that_a_scenario_lacks_is_refused(tmp_path):
+    with pytest.raises(ParameterError, match="--settle has no effect with JMA intensity"):
+        forms.scenario_object(["--block", "statue", "--settle", "20"], tmp_path)
 
 
 def test_report_keeps_record_body_friction_and_floor():
