@@ -132,10 +132,10 @@ def read_sheet(path: Path, name: str) -> Sheet:
 
 
 def text_sheet(text: str, source: str) -> Sheet:
-    """Return the rows of a CSV text; its separator is that of the first row, and a cell in quotes may have several lines."""
+    """Return the rows of a CSV text; its separator is that of most lines, and a cell in quotes may have several lines."""
     lines = text.splitlines()
-    # a title above the header has no separator
-    separator = next((mark for line in lines if not _is_comment(line) for mark in ",\t;" if mark in line), ",")
+    # a title may have a comma, and so may numbers and notes, but not the header of a table with another separator
+    separator = max(",\t;", key=lambda mark: (sum(mark in line for line in lines if not _is_comment(line)), text.count(mark)))
     rows: list[Row] = []
     notes: list[tuple[int, str]] = []
     read: list[int] = []  # lines of the row being read
