@@ -92,8 +92,8 @@ def shaking_along_three_axes(seconds):
     return Motion(np.array(rows), 0.01)
 
 
-def slabs(count):
-    slab = PileStone("s0", 0.6, 0.6, 0.08)
+def slabs(count, width=0.6):
+    slab = PileStone("s0", width, width, 0.08)
     return Pile("slabs", (slab, *(replace(slab, name=f"s{i}", on=f"s{i - 1}") for i in range(1, count))), mu=0.3)
 
 
@@ -119,6 +119,22 @@ def test_hard_piles(case, benchmark):
     response = benchmark.pedantic(solve_stack, (pile, shaking_along_three_axes(seconds)), rounds=2, warmup_rounds=1)
     assert not response.warnings
     assert benchmark.stats is None or response.time[-1] / benchmark.stats.stats.min > minimum
+
+
+def test_cost_of_sliding_slabs_grows_with_an_exponent_below_one_and_a_half(benchmark):
+    """Three and fifty slabs, so wide that none falls."""
+    seconds, motion = {}, shaking_along_three_axes(2.0)
+
+    def turn():
+        for count in (3, 50):
+            start = process_time()
+            solve_stack(slabs(count, width=2.5), motion)
+            seconds[count] = min(seconds.get(count, np.inf), process_time() - start)
+
+    benchmark.pedantic(turn, rounds=4)
+    exponent = np.log(seconds[50] / seconds[3]) / np.log(50 / 3)
+    benchmark.extra_info["exponent"] = exponent
+    assert not benchmark.enabled or exponent < 1.5
 
 
 @pytest.mark.parametrize("count", [5, 10, 20])

@@ -40,6 +40,7 @@ from seisblock.models.stack.time_of_impact import (
     load_until_impact,
     make_impact_plastic,
     next_impact_time,
+    set_gap_rates,
     store_impact,
 )
 from seisblock.models.stack.velocity_bounds import max_roll_time, set_velocity_bounds
@@ -155,7 +156,7 @@ def _solve_impacts(count, n, time_before, pile, memory):
     begin_impacts(count, memory)
     for _ in range(MAX_IMPACTS):
         # one impact may drive other contacts together at the same instant
-        if not detect_impacts(count, memory):
+        if not detect_impacts(count, False, memory):
             break
         rows = add_restitution_rows(count, n, pile, memory)
         sweep_impact(rows, n, pile, memory)
@@ -192,12 +193,13 @@ def _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
     record_slip(count, False, memory)
     # contact conditions belong to the middle of the coming step
     # the velocities are half a step behind: advance them to the step, with the extrapolated forces
+    set_gap_rates(count, memory)
     _advance_velocities(count, n, half_last_step, a0, a1, a2, pile, memory)
-    has_impact = detect_impacts(count, memory)
+    has_impact = detect_impacts(count, True, memory)
     if has_impact:
         _solve_impacts(count, n, half_last_step, pile, memory)
         # gap rates and bounds after the impacts
-        detect_impacts(count, memory)
+        detect_impacts(count, False, memory)
     _advance_velocities(count, n, 0.5 * time_left, a0, a1, a2, pile, memory)
     # after an impact the slip was recorded at the step, else half a step before
     duration, time_before = (0.5 * time_left, 0.0) if has_impact else (half_last_step + 0.5 * time_left, half_last_step)
