@@ -446,7 +446,7 @@ def test_afad_files_in_the_layout_of_esm(tmp_path, start):
     assert (record.codes, record.doubts) == (("NS", "EW", "UD"), ())
     assert record.start == START_TIME
     assert record.metadata["origin_time"] == datetime(2020, 1, 2, 3, 4, tzinfo=UTC)
-    assert (record.location, record.metadata["station_name"]) == ("", "Synthetic_Merkez_Turkiye")
+    assert (record.location, record.metadata["station_name"]) == ("", "Synthetic Merkez Turkiye")
 
 
 @pytest.mark.parametrize("kind", ["afad", "esm", "cosmos", "smc"])

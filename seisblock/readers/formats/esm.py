@@ -128,7 +128,7 @@ def _metadata(header: Header) -> dict[str, object]:
     entries = {key: value for key, (_, value) in header.items()}
     location, place = entries.get("LOCATION", ""), entries.get("STATION_NAME", "")
     if len(location) > _MAX_LOCATION_CODE:
-        location, place = "", place or location
+        location, place = "", place or location.replace("_", " ")
     origin_text = entries.get("EVENT_DATE_YYYYMMDD", "") + "_" + entries.get("EVENT_TIME_HHMMSS", "")
     # moment magnitude before local magnitude
     magnitudes = [parse_number(entries.get(key, "")) for key in ("MAGNITUDE_W", "MAGNITUDE_L")]
