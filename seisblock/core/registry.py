@@ -10,6 +10,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from seisblock.core._display import exact_repr
 from seisblock.core.errors import ParameterError
 from seisblock.core.options import SolverOptions
 
@@ -39,6 +40,11 @@ class SolverBody:
     name: str
     body: Any
     options: Any
+
+    @cached_property
+    def option_texts(self) -> dict[str, str]:
+        """Text of each option, to compare the options of bodies once for all motions."""
+        return {name: exact_repr(value) for name, value in self.options.keywords().items()}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,6 +7,8 @@ import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.core.registry import SolverBody, get_solver
+from seisblock.models.respond.batch import solve_runs
+from seisblock.models.respond.constants import X
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rock.options import RockOptions
 from seisblock.records import Motion
@@ -94,3 +96,29 @@ def test_friction_demand_by_kernel_equals_dense_evaluation():
     for width in (0.22, 0.25, 0.5):
         coarse, dense = (solve(Block(width, 0.9), ground_motion).outcome for ground_motion in (ground, fine))
         assert coarse.max_friction_demand == pytest.approx(dense.max_friction_demand, rel=1e-5)
+
+
+def test_respond_rows_repeat_no_body_that_stays_at_rest(monkeypatch):
+    """A body is tried for sensitivity unless the motion leaves it at rest by more than the changes tried, under vertical motion too."""
+    ground = motion(4, 3.0)
+    demand = float((np.abs(ground.horizontal) / (9.80665 + ground.vertical)).max())
+    runs = []
+
+    def counted(params, motion, gains, *arguments):
+        result = solve_runs(params, motion, gains, *arguments)
+        runs.append((len(params), float(np.abs(result.final[:, X]).max())))
+        return result
+
+    monkeypatch.setattr("seisblock.models.respond.rows.solve_runs", counted)
+    for share, repeated, slips in ((0.9, True, True), (1.0 + 3e-6, True, False), (1.0 + 5e-5, False, False)):
+        runs.clear()
+        bodies = [SolverBody("stone", Block(2.0, 0.5), RespondOptions(mu=share * demand))]
+        (result,) = get_solver("respond").solve_rows(bodies, ground).values()
+        assert (len(runs) > 1) == repeated
+        assert (max(displacement for _, displacement in runs) > 0.0) == slips
+        assert result[0]["sensitive"] is False
+    # a given state is no rest
+    runs.clear()
+    tilted = RespondOptions(mu=1.5 * demand, initial=(0.0, 0.25, 0.0, 0.01, 0.0, 0.0))
+    get_solver("respond").solve_rows([SolverBody("stone", Block(2.0, 0.5), tilted)], ground)
+    assert len(runs) > 1

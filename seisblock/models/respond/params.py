@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import BlockArray
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core._display import DisplayMixin
+from seisblock.core.arrays import as_readonly
 from seisblock.core.checks import fraction, in_interval, non_negative
 from seisblock.core.checks import gravity as check_gravity
 from seisblock.core.errors import BodyError, ParameterError
@@ -200,18 +202,26 @@ class RespondParams(DisplayMixin):
         """Mode at the first sample."""
         return START + TENON_OFFSET if self.tenon > 0.0 else START
 
-    def parameters(self, dt: float, *, duration_s: float = 0.0, ground_at_rest: bool = False) -> FloatArray:
-        """Return the parameter vector of the model, (16 + 2 n_points,), for a run of `duration_s` seconds."""
+    @cached_property
+    def _constants(self) -> FloatArray:
+        """Parameter vector without what depends on the motion: runs that only differ in it share this."""
         body = self.rigid_body
         # a negative value encodes a share of Housner's ratio, see ``constants``: one parameter serves both laws
         ratio = NO_MODE * self.rocking_share if self.rocking_restitution is None else self.rocking_restitution
         row = [
-            self.gravity, dt, self.mu, self.mu_kinetic, self.restitution, ratio, body.right, body.left, body.height, body.gyration_squared,
-            self.tenon, float(self.mu_kinetic >= JAM_WARNING_RATIO * body.friction_limit), float(ground_at_rest), self.small_rate,
+            self.gravity, 0.0, self.mu, self.mu_kinetic, self.restitution, ratio, body.right, body.left, body.height, body.gyration_squared,
+            self.tenon, float(self.mu_kinetic >= JAM_WARNING_RATIO * body.friction_limit), 0.0, self.small_rate,
             FLAT_SHARE * self.small_rate if self.sets_flat else 0.0,
-            MAX_IMPACTS + MAX_IMPACTS_PER_SECOND * duration_s,
+            0.0,
         ]  # fmt: skip
-        return np.array(row + [value for point in self.further_points for value in point])
+        return as_readonly(row + [value for point in self.further_points for value in point])
+
+    def parameters(self, dt: float, *, duration_s: float = 0.0, ground_at_rest: bool = False) -> FloatArray:
+        """Return the parameter vector of the model, (16 + 2 n_points,), for a run of `duration_s` seconds."""
+        row = self._constants.copy()
+        row[constants.DT], row[constants.GROUND_AT_REST] = dt, ground_at_rest
+        row[constants.MAX_IMPACTS] = MAX_IMPACTS + MAX_IMPACTS_PER_SECOND * duration_s
+        return row
 
     def state(self, initial: Initial) -> FloatArray:
         """Return the initial state, (15,): upright and at rest, or from `initial` (x, y, theta and their rates)."""

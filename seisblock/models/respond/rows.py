@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock._jit import kernel
 from seisblock.core.registry import RowResult, SolverBody
+from seisblock.core.typing import BoolArray, FloatArray
 from seisblock.dynamics.buffers import N_EVENTS, N_FLUSHED
 from seisblock.dynamics.ensemble import Observer
 from seisblock.dynamics.events import EVENT_FROM, EVENT_TO
@@ -17,7 +18,7 @@ from seisblock.models.respond.batch import Runs, solve_runs
 from seisblock.models.respond.constants import FLIGHT, GAVE_UP, IMPACTS, MODES, START, TENON_OFFSET, THETA, X
 from seisblock.models.respond.names import run_warnings
 from seisblock.models.respond.outcome import RunEnd, are_sensitive, scalar_results
-from seisblock.models.respond.params import motion_gains
+from seisblock.models.respond.params import RespondParams, motion_gains
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
 
@@ -54,6 +55,25 @@ def _run_end(runs: Runs, row: int) -> RunEnd:
     return RunEnd(int(runs.mode[row]), runs.final[row].tolist(), float(runs.time[row]), rotations, displacements, flights, modes)
 
 
+REST_MARGIN = 1e-5
+"""Relative change of the motion up to which a body must stay at rest not to be tried for sensitivity; several times the changes tried."""
+
+
+def _stay_at_rest(params: Sequence[RespondParams], motion: Motion, gains: FloatArray) -> BoolArray:
+    """Return which bodies, at rest on the ground at first, a motion changed by up to ``REST_MARGIN`` makes neither rock nor slip."""
+    demands = dict[tuple[float, float], float]()
+    result = np.zeros(len(params), dtype=np.bool_)
+    for row, row_params in enumerate(params):
+        body, key = row_params.rigid_body, (row_params.gravity, float(gains[row, 2]))
+        if key not in demands:
+            vertical = key[1] * motion.vertical
+            weight = key[0] + vertical - REST_MARGIN * np.abs(vertical)
+            # a ratio of linear functions has its extrema at samples
+            demands[key] = (1.0 + REST_MARGIN) * float((np.abs(motion.horizontal) / weight).max()) if weight.min() > 0.0 else math.inf
+        result[row] = demands[key] < min(row_params.mu, body.left / body.height, body.right / body.height)
+    return result
+
+
 def solve_respond_rows(bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowResult]:
     """Return scalar results and warnings of bodies without tenons by name; runs without a result are left out, for their single run."""
     options = bodies[0].options
@@ -71,7 +91,14 @@ def solve_respond_rows(bodies: Sequence[SolverBody], motion: Motion) -> dict[str
         repeated = solve_runs([params[row] for row in changed], motion, factors, options.initial, options.settle_s)
         return [_run_end(repeated, place) for place in range(len(changed))]
 
-    flags = are_sensitive(ends, repeat) if options.sensitivity else [None] * len(rows)
+    flags: list[bool | None] = [None] * len(rows)
+    if options.sensitivity:
+        stays = _stay_at_rest([params[row] for row in rows], motion, gains[rows]) & (options.initial is None)
+        flags = [False] * len(rows)
+        moving = np.flatnonzero(~stays).tolist()
+        changes = are_sensitive([ends[place] for place in moving], lambda places, change: repeat([moving[k] for k in places], change))
+        for place, flag in zip(moving, changes, strict=True):
+            flags[place] = flag
     result: dict[str, RowResult] = {}
     for row, end, flag in zip(rows, ends, flags, strict=True):
         values = {**scalar_results(end, params[row], motion.start_s, flag), "tenon_left_s": None}

@@ -9,7 +9,6 @@ from typing import Any
 
 from seisblock.bodies.factory import block_for_motion
 from seisblock.bodies.table import BodySpec, resolve_kinds
-from seisblock.core._display import exact_repr
 from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.registry import RowResult, Solver, SolverBody, get_solver
@@ -33,10 +32,10 @@ def solve_vectorized(solver: Solver, bodies: Sequence[SolverBody], motion: Motio
     """Return results by body name for the bodies that a solver can vectorise; the others are solved one by one."""
     if solver.solve_rows is None:
         return {}
-    groups: dict[str, list[SolverBody]] = {}
+    groups: dict[tuple[str, ...], list[SolverBody]] = {}
     for body in bodies:
-        shared = {key: value for key, value in body.options.keywords().items() if key not in solver.row_options}
-        groups.setdefault(exact_repr(shared), []).append(body)
+        shared = tuple(text for name, text in body.option_texts.items() if name not in solver.row_options)
+        groups.setdefault(shared, []).append(body)
     results: dict[str, RowResult] = {}
     for group in groups.values():
         try:
