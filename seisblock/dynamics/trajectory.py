@@ -74,15 +74,6 @@ class Path:
         event_modes, positions = np.stack([self.events.source, self.events.target], axis=1).ravel(), self._insert_positions(samples)
         return np.insert(time, positions, np.repeat(self.events.time, 2)), np.insert(modes, positions, event_modes)
 
-    def row_indices(self, samples: IntArray) -> IntArray:
-        """Return the indices, in the whole table, of the rows that :meth:`table` returns for some samples, (m,)."""
-        if not self.events:
-            return samples
-        # rows of the whole table: each sample is preceded by the inserted rows of earlier events
-        positions = self._event_positions
-        at_samples = samples + np.searchsorted(positions, samples, side="right")
-        return np.insert(at_samples, self._insert_positions(samples), positions + np.arange(positions.size))
-
     def values(self, state: int) -> FloatArray:
         """Return one state at the times of :meth:`table`, (m,)."""
         at_samples: FloatArray = self.states[:, state]

@@ -499,9 +499,6 @@ def rigid3d_samples(results: Sequence[Rigid3dOutcome | None], body: RigidBody, v
     return Samples("rigid3d", fallen, shifts, np.array([result is None for result in results]), variation, seed, outcomes)
 
 
-"""Solvers of which samples can be solved."""
-
-
 def join_directions(parts: Sequence[Samples]) -> Samples:
     """Return the samples of an object under any of several directions: a sample overturns if it does so in one of them.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -18,13 +18,8 @@ from seisblock.studies.sampling import ParameterVariation, draw_samples
 Draws = FloatArray | None
 """Draws of the samples of a body, (v, 8), each uniform in [-1, 1]; None for the nominal body."""
 
-Runner = Callable[[SolverBody, Motion, FloatArray, Draws], EndStates]
-"""``runner(solver_body, motion, factors, draws)``: end states of all samples at the first factor, then at the next."""
-
 VERSIONS = ParameterVariation(amplitude=0.0, azimuth_deg=0.0)
 """Half widths of a body as everywhere, without the shaking, whose intensity is the abscissa of the curve."""
-
-"""Sliding runs per thread and batch."""
 
 
 def single_end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws, *, solver: Solver) -> EndStates:

@@ -36,7 +36,6 @@ from seisblock.studies.survey.overturning_rate import (
 )
 from seisblock.studies.survey.shaking import Shaking
 from seisblock.studies.survey.simulation import (
-    SIMULATED_PGA,
     rocking_thresholds,
     sampled_overturns,
     simulated_curve,
@@ -261,19 +260,24 @@ def overturning_curve(
         recorded_motions = [([shaking.motion], shaking.frequency)] if shaking is not None and shaking.motion is not None else []
         sine_frequencies = [] if recorded_motions else list(frequencies) if shaking is None else [shaking.frequency]
         motions = recorded_motions or [([sine_motion(1.0, f)], f) for f in sine_frequencies]
-        return simulated_curve(
-            cemetery,
-            motions,
-            SIMULATED_PGA,
-            inset=method.inset,
-            width=method.width,
-            vertical=method.vertical,
-            gravity=method.gravity,
-            progress=progress,
-        )
+        return _simulated_curve(cemetery, motions, method, progress)
     first = [] if shaking is None else [shaking.frequency]
     curve_frequencies = list(dict.fromkeys([*first, *frequencies]))
     return rate_curve(cemetery, CURVE_PGA, curve_frequencies, limits=method.limits)
+
+
+def _simulated_curve(
+    cemetery: Cemetery, motions: Sequence[tuple[Sequence[Motion], float]], method: AssessmentMethod, progress: Progress | None
+) -> tuple[CurvePoint, ...]:
+    return simulated_curve(
+        cemetery,
+        motions,
+        inset=method.inset,
+        width=method.width,
+        vertical=method.vertical,
+        gravity=method.gravity,
+        progress=progress,
+    )
 
 
 def assess_cemetery(
@@ -387,16 +391,6 @@ def _either_component(
     rate = rate_from_stones(falls, method.confidence)
     motions = [_simulated_motion(shaking) for shaking in shakings]
     largest = larger_component(rates)
-    curve = simulated_curve(
-        cemetery,
-        [(motions, largest.equivalent_frequency_hz)],
-        SIMULATED_PGA,
-        inset=method.inset,
-        width=method.width,
-        vertical=method.vertical,
-        gravity=method.gravity,
-        progress=progress,
-    )
     # PGA and frequency remain those of the component with most falls; rates by model refer to one component
     return replace(
         largest,
@@ -406,7 +400,7 @@ def _either_component(
         fallen=rate.fallen,
         least_overturned_ratio=float(ratios[falls].min()) if falls.any() else None,
         largest_standing_ratio=None if falls.all() else float(ratios[~falls].max()),
-        curve=curve,
+        curve=_simulated_curve(cemetery, [(motions, largest.equivalent_frequency_hz)], method, progress),
         models=(),
         mean_probability=float(_repeat_counts(cemetery, probabilities).mean()),
         each_stone=stones,
