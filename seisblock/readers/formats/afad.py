@@ -52,8 +52,8 @@ def read_afad(blob: RawFile) -> Record:
         peak = search_group(rf"\({re.escape(name)}\)\s*([\d.]+)", header[peak_key])
         # printed digits of peak and samples
         flags += flag_peak_mismatch(direction.code, peak, row, "gal", 4.0 * half_last_digit(peak), signed=False, about_mean=True)
-    latitude, longitude = parse_coordinates(header.get("STATION COORDINATES", ""))
-    event_latitude, event_longitude = parse_coordinates(header.get("EPICENTER COORDINATES", ""))
+    latitude, longitude = _parse_place(header.get("STATION COORDINATES", ""))
+    event_latitude, event_longitude = _parse_place(header.get("EPICENTER COORDINATES", ""))
     metadata = {
         "unit": "gal",
         "station_name": header.get("PLACE"),
@@ -76,6 +76,11 @@ def read_afad(blob: RawFile) -> Record:
         metadata=drop_missing(metadata),
         doubts=flags,
     )
+
+
+def _parse_place(text: str) -> tuple[float | None, float | None]:
+    """Return latitude and longitude, degrees; whole degrees have no decimal point."""
+    return parse_coordinates(re.sub(r"(?<![\d.])(\d{1,3})(?=\s*[NSEW]\b)", r"\1.", text, flags=re.IGNORECASE))
 
 
 def _record_time(text: str) -> datetime | None:
