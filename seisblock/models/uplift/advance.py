@@ -444,7 +444,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
         if steps_left <= 0 or (stores_events and 2 * (n_events - n_flushed) > times.size):
             status = PAUSED
             break
-        steps_left -= 1
+        steps_left -= substeps
         for row in range(3):
             if gains[row] != 0.0:
                 value = gains[row] * acceleration[row, sample]
