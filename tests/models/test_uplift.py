@@ -11,7 +11,7 @@ import pytest
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate
-from seisblock.models.uplift.advance import BEYOND, _undecided
+from seisblock.models.uplift.advance import BEYOND, _is_quiet, _undecided
 from seisblock.models.uplift.batch import uplift_many
 from seisblock.models.uplift.constants import ALL_CORNERS, GLUED, TURN_X, TURN_Y, VA, VB, VX, VZ, F, U, X
 from seisblock.models.uplift.harmonic import uplift_thresholds
@@ -382,6 +382,7 @@ def test_motion_along_one_axis_is_propagated_after_a_lift(axis):
     extrema = np.zeros((10, 4))
     extrema[:, 0], extrema[:, 2] = np.where(start[:10] == 0.0, 0.0, [[1.0], [-1.0]])
     assert _undecided(0, p, start, end, np.zeros((3, 2)), 0.01, 100.0, extrema) & (BEYOND - 1) == 0
+    assert _is_quiet(0, p, start, end, 0.01, 100.0, extrema, np.ones(8), np.zeros(8)), "decided without the closer bounds"
 
 
 def test_round_off_is_varied_at_contact_changes_only():

@@ -286,7 +286,9 @@ def _is_quiet(mode, p, y, end, h, energy, extrema, top, margins):
         return quiet
     for k in range(2):
         i, rate = (TURN_X, VA) if k == 0 else (TURN_Y, VB)
-        excess = fourth * p[PER_ROOT_JX + k]
+        # a rotation that does not move at all, as under shaking along one axis, stays zero
+        is_still = y[i] == 0.0 and end[i] == 0.0 and y[rate] == 0.0 and end[rate] == 0.0
+        excess = 0.0 if is_still else fourth * p[PER_ROOT_JX + k]
         lowest, highest = _bezier_range(y[i], end[i], y[rate], end[rate], h)
         quiet &= highest + excess <= extrema[i, HIGHEST] and lowest - excess >= extrema[i, LOWEST]
     return quiet
@@ -340,7 +342,6 @@ def _undecided(mode, p, y, end, f, h, energy, extrema):
         excess = fourth * p[PER_ROOT_JX + k]
         lowest, highest = _bezier_range(y[i], end[i], y[rate], end[rate], h)
         if highest + excess > extrema[i, HIGHEST] or lowest - excess < extrema[i, LOWEST]:
-            # a rotation that does not move at all, as under shaking along one axis, stays zero
             is_still = y[i] == 0.0 and end[i] == 0.0 and y[rate] == 0.0 and end[rate] == 0.0
             bits |= 0 if is_still or _is_monotone(y[i], end[i], y[rate], end[rate], h, excess) else 1 << (4 + i)
             bits |= BEYOND
