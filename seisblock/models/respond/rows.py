@@ -97,8 +97,8 @@ def solve_respond_rows(bodies: Sequence[SolverBody], motion: Motion) -> dict[str
         flags = [False] * len(rows)
         moving = np.flatnonzero(~stays).tolist()
         changes = are_sensitive([ends[place] for place in moving], lambda places, change: repeat([moving[k] for k in places], change))
-        for place, flag in zip(moving, changes, strict=True):
-            flags[place] = flag
+        for place, is_sensitive in zip(moving, changes, strict=True):
+            flags[place] = is_sensitive
     result: dict[str, RowResult] = {}
     for row, end, flag in zip(rows, ends, flags, strict=True):
         values = {**scalar_results(end, params[row], motion.start_s, flag), "tenon_left_s": None}
