@@ -71,7 +71,7 @@ finally:
 LIBRARY = """
 from seisblock import Motion, SpringBlock, solve_uplift
 rng = np.random.default_rng(0)
-motion = Motion.from_arrays(0.1 * rng.normal(size=3_000_000), 0.01)
+motion = Motion.from_arrays(3.0 * rng.normal(size=3_000_000), 0.01)
 block = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)
 solve_uplift(block, Motion.from_arrays(np.zeros(3), 0.01))
 print("go", flush=True)
