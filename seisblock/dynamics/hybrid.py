@@ -191,7 +191,7 @@ def store_limit(output, event, side, y):
 
 
 @kernel(_t.void(OUTPUT, _t.int64, VECTOR, _t.float64), inline=True)
-def store_dwell_time(output, mode, clock, time):
+def _store_dwell_time(output, mode, clock, time):
     """Add the time since the last event to the dwell times of a mode and restart the clock."""
     if output.dwell_times.shape[0] > 0:
         dwell_time = time - clock[MODE_START]
@@ -199,6 +199,61 @@ def store_dwell_time(output, mode, clock, time):
         output.dwell_times[mode, TOTAL] += dwell_time
         output.dwell_times[mode, LONGEST] = max(output.dwell_times[mode, LONGEST], dwell_time)
     clock[MODE_START] = time
+
+
+@kernel(_t.void(STATE, OUTPUT, _t.int64, _t.float64), inline=True)
+def begin_trajectory(state, output, tracked, dt):
+    """Start clocks, extrema and path at the first call for a trajectory; a continuation after a pause keeps them."""
+    counters, clock, y = state
+    if counters[HAS_STARTED] == 0:
+        counters[HAS_STARTED] = 1
+        clock[FIRST_EVENT_TIME] = np.nan
+        clock[MODE_START] = counters[SAMPLE] * dt + clock[TAU]
+        init_extrema(output.extrema, tracked, y, clock[MODE_START])
+        if output.path.shape[0] > 0 and clock[TAU] == 0.0:
+            store_sample(output, counters[SAMPLE] - counters[SEGMENT_START], y, counters[MODE])
+
+
+@kernel(_t.void(OUTPUT, *(5 * (_t.int64,)), _t.float64, VECTOR), inline=True)
+def store_event(output, event, sample, guard, mode, next_mode, tau, y):
+    """Store an event in a row of the tables, with the state after it."""
+    row = output.events[event]
+    row[EVENT_SAMPLE], row[EVENT_GUARD], row[EVENT_FROM], row[EVENT_TO] = sample, guard, mode, next_mode
+    output.times[event] = tau
+    store_limit(output, event, 1, y)
+
+
+@kernel(_t.void(OUTPUT, *(4 * (_t.int64,)), VECTOR, _t.float64), inline=True)
+def count_event(output, guard, mode, next_mode, n_events, clock, time):
+    """Add an event to the time of the first one, the dwell times and the transition counts; `n_events` came before."""
+    if n_events == 0:
+        clock[FIRST_EVENT_TIME] = time
+    _store_dwell_time(output, mode, clock, time)
+    if output.transition_counts.shape[0] > 0:
+        output.transition_counts[guard, next_mode] += 1
+
+
+@kernel(_t.int64(STATE, OUTPUT, *(6 * (_t.int64,)), _t.float64, _t.float64), inline=True)
+def end_call(state, output, status, sample, mode, n_events, n_simultaneous, steps_left, tau, dt):
+    """Write the state of a pause, from which the next call continues bit by bit; return the status of the call.
+
+    `sample` counts from the start of the motion.
+    """
+    counters, clock, _ = state
+    # end of a segment, not of the motion
+    if status == RECORD_ENDED and counters[SAMPLES_AFTER] > 0:
+        status = PAUSED
+    if status == RECORD_ENDED:
+        _store_dwell_time(output, mode, clock, sample * dt + tau)
+    counters[SAMPLE], counters[MODE], counters[N_EVENTS], counters[N_SIMULTANEOUS], counters[STEPS_LEFT] = (
+        sample,
+        mode,
+        n_events,
+        n_simultaneous,
+        steps_left,
+    )
+    clock[TAU] = tau
+    return status
 
 
 @kernel(_t.void(_t.int64, MATRIX), inline=True)
@@ -241,7 +296,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     """
     acceleration, gains, dt = forcing
     counters, clock, y = state
-    events, times, extrema, transition_counts = output.events, output.times, output.extrema, output.transition_counts
+    times, extrema = output.times, output.extrema
     c, g, f = scratch.c, scratch.g, scratch.f
     segment_start = counters[SEGMENT_START]
     last = acceleration.shape[1] - 1
@@ -261,14 +316,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     # models read all rows of f, but rows with a zero gain are not written: clear the values of an earlier trajectory
     for row in range(f.shape[0]):
         f[row, 0] = f[row, 1] = 0.0
-    # first call for this trajectory, not a continuation after a pause
-    if counters[HAS_STARTED] == 0:
-        counters[HAS_STARTED] = 1
-        clock[FIRST_EVENT_TIME] = np.nan
-        clock[MODE_START] = (segment_start + sample) * dt + tau
-        init_extrema(extrema, shape.tracked, y, (segment_start + sample) * dt + tau)
-        if stores_path and tau == 0.0:
-            store_sample(output, sample, y, mode)
+    begin_trajectory(state, output, shape.tracked, dt)
     status = RECORD_ENDED
     while sample < last and status == RECORD_ENDED:
         # pause between samples only, so that the result does not depend on the pauses
@@ -350,21 +398,11 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                         break
                     continue
                 if stores_events:
-                    row = n_events - n_flushed
-                    events[row, EVENT_SAMPLE] = segment_start + sample
-                    events[row, EVENT_GUARD] = guard
-                    events[row, EVENT_FROM] = mode
-                    events[row, EVENT_TO] = next_mode
-                    times[row] = tau
-                    store_limit(output, row, 1, y)
+                    store_event(output, n_events - n_flushed, segment_start + sample, guard, mode, next_mode, tau, y)
                 # a reset may set a state beyond the extrema of the step
                 for i in range(shape.tracked):
                     update_extrema(extrema, i, y[i], (segment_start + sample) * dt + tau)
-                if n_events == 0:
-                    clock[FIRST_EVENT_TIME] = (segment_start + sample) * dt + tau
-                store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
-                if transition_counts.shape[0] > 0:
-                    transition_counts[guard, next_mode] += 1
+                count_event(output, guard, mode, next_mode, n_events, clock, (segment_start + sample) * dt + tau)
                 n_events += 1
                 mode = next_mode
                 # terminal modes are negative
@@ -388,22 +426,8 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             tau = 0.0
             if stores_path:
                 store_sample(output, sample, y, mode)
-    # end of a segment, not of the motion
-    if status == RECORD_ENDED and counters[SAMPLES_AFTER] > 0:
-        status = PAUSED
-    if status == RECORD_ENDED:
-        store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
-    # state of a pause: the next call continues from here, bit by bit
-    counters[SAMPLE], counters[MODE], counters[N_EVENTS], counters[N_SIMULTANEOUS], counters[STEPS_LEFT] = (
-        segment_start + sample,
-        mode,
-        n_events,
-        n_simultaneous,
-        steps_left,
-    )
     counters[AT_REST] = at_rest
-    clock[TAU] = tau
-    return status
+    return end_call(state, output, status, segment_start + sample, mode, n_events, n_simultaneous, steps_left, tau, dt)
 
 
 @kernel(_t.int64(*LOOP_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT, SCRATCH))

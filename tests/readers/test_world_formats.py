@@ -45,8 +45,8 @@ def test_read_afad(tmp_path):
     assert (record.dt, record.station, record.start) == (DT, "0000", START_TIME)
     assert record.metadata["magnitude"] == 6.5 and record.metadata["station_longitude_deg"] == 27.59223
     assert record.doubts == ()
-    whole = read(written(tmp_path, world.afad(ROWS).replace("37.87470N-27.59223E", "38N - 27.5E")))
-    assert [whole.metadata[f"station_{key}_deg"] for key in ("latitude", "longitude")] == [38.0, 27.5]
+    record = read(written(tmp_path, world.afad(ROWS).replace("37.87470N-27.59223E", "38N - 27.5E")))
+    assert [record.metadata[f"station_{key}_deg"] for key in ("latitude", "longitude")] == [38.0, 27.5]
 
 
 def test_read_unam(tmp_path):

@@ -19,27 +19,25 @@ from seisblock._jit.vectors import multiply_columns
 from seisblock.core.status import CHATTERING, NOT_FINITE, PAUSED, RECORD_ENDED, TOO_MANY_EVENTS
 from seisblock.dynamics.array_types import MATRIX, VECTOR
 from seisblock.dynamics.buffers import (
-    FIRST_EVENT_TIME,
-    HAS_STARTED,
     MODE,
-    MODE_START,
     N_EVENTS,
     N_FLUSHED,
     N_SIMULTANEOUS,
     SAMPLE,
-    SAMPLES_AFTER,
     SCRATCH,
     SEGMENT_START,
     STEPS_LEFT,
     TAU,
 )
-from seisblock.dynamics.events import EVENT_FROM, EVENT_GUARD, EVENT_SAMPLE, EVENT_TO
-from seisblock.dynamics.extrema import HIGHEST, HIGHEST_TIME, LOWEST, init_extrema, update_extrema, update_interior_extremum
+from seisblock.dynamics.extrema import HIGHEST, HIGHEST_TIME, LOWEST, update_extrema, update_interior_extremum
 from seisblock.dynamics.hybrid import (
     ADVANCE,
     MAX_SIMULTANEOUS_EVENTS,
     MAX_STEPS_PER_SAMPLE,
-    store_dwell_time,
+    begin_trajectory,
+    count_event,
+    end_call,
+    store_event,
     store_limit,
     store_sample,
 )
@@ -100,6 +98,12 @@ BEYOND = 1 << (4 + TRACKED)
 def _force(p, closed, i, u, w):
     """Return the force of corner `i` over the mass: an open corner keeps its horizontal spring only."""
     return -(p[KZ] * u + p[CZ] * w) if (closed >> i) & 1 else 0.0
+
+
+@kernel(_t.UniTuple(_t.float64, 2)(VECTOR, _t.int64), inline=True)
+def _levers(p, i):
+    """Return the distances of corner `i` from the axes, over the depth: what its height loses by b theta_y and gains by b theta_x."""
+    return p[HALF_GAMMA] if i < 2 else -p[HALF_GAMMA], 0.5 if i % 2 == 0 else -0.5
 
 
 @kernel(_t.UniTuple(_t.float64, 5)(VECTOR, _t.int64, *(10 * (_t.float64,))), inline=True)
@@ -166,7 +170,7 @@ def _energy_norm(p, closed, y, f):
     energy = z3 * z3 + p[JY] * b3 * b3 + p[JX] * a3 * a3 + x3 * x3 + y3 * y3
     energy += p[KX] * (x2 - p[HALF_ALPHA] * b2) ** 2 + p[KY] * (y2 + p[HALF_ALPHA] * a2) ** 2
     for i in range(4):
-        sx, sy = p[HALF_GAMMA] if i < 2 else -p[HALF_GAMMA], 0.5 if i % 2 == 0 else -0.5
+        sx, sy = _levers(p, i)
         energy += p[KZ] * (z2 - sx * b2 + sy * a2) ** 2 if (closed >> i) & 1 else 0.0
     return np.sqrt(energy)
 
@@ -225,7 +229,7 @@ def _set_corners(p, closed, y):
 @kernel(_t.float64(VECTOR, VECTOR, _t.int64), inline=True)
 def corner_rate(p, y, i):
     """Return the vertical rate of corner `i`."""
-    sx, sy = p[HALF_GAMMA] if i < 2 else -p[HALF_GAMMA], 0.5 if i % 2 == 0 else -0.5
+    sx, sy = _levers(p, i)
     return y[VZ] - sx * y[VB] + sy * y[VA]
 
 
@@ -299,7 +303,7 @@ def _force_rate(p, y, f, closed, i, after):
     """Return the rate of the force of corner `i`, a time `after` the loads."""
     datum, weight = _datum(p, closed)
     z2, b2, a2, _, _ = restoring(p, closed, y[Z] - datum, y[TURN_Y], y[TURN_X], y[X], y[Y], y[VZ], y[VB], y[VA], y[VX], y[VY])
-    sx, sy = p[HALF_GAMMA] if i < 2 else -p[HALF_GAMMA], 0.5 if i % 2 == 0 else -0.5
+    sx, sy = _levers(p, i)
     second = z2 - (f[2, 0] + f[2, 1] * after + weight) - sx * b2 + sy * a2
     return -(p[KZ] * corner_rate(p, y, i) + p[CZ] * second)
 
@@ -351,7 +355,7 @@ def _undecided(mode, p, y, end, f, h, energy, extrema):
 @kernel(_t.void(VECTOR, VECTOR, MATRIX, _t.int64, _t.int64, _t.float64, VECTOR), inline=True)
 def _corner_series(p, y, c, degree, i, sign, g):
     """Write the power series of the displacement of corner `i`, times a sign, to `g`; a reset leaves corners at exactly zero."""
-    sx, sy = p[HALF_GAMMA] if i < 2 else -p[HALF_GAMMA], 0.5 if i % 2 == 0 else -0.5
+    sx, sy = _levers(p, i)
     g[0] = sign * y[U + i]
     for k in range(1, degree + 1):
         g[k] = sign * (c[Z, k] - sx * c[TURN_Y, k] + sy * c[TURN_X, k])
@@ -413,7 +417,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     """Advance one trajectory from its current state as :func:`seisblock.dynamics.hybrid.advance` does; return a status code."""
     acceleration, gains, dt = forcing
     counters, clock, y = state
-    events, times, extrema = output.events, output.times, output.extrema
+    times, extrema = output.times, output.extrema
     c, g, f = scratch.c, scratch.g, scratch.f
     end, top = c[Z + 1], c[Z + 2]
     segment_start, last, n_flushed = counters[SEGMENT_START], acceleration.shape[1] - 1, counters[N_FLUSHED]
@@ -426,13 +430,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
         counters[STEPS_LEFT],
     )
     tau, step, substeps, degree, per_dt = clock[TAU], p[STEP], int(p[SUBSTEPS]), int(p[DEGREE]), 1.0 / dt
-    if counters[HAS_STARTED] == 0:
-        counters[HAS_STARTED] = 1
-        clock[FIRST_EVENT_TIME] = np.nan
-        clock[MODE_START] = (segment_start + sample) * dt + tau
-        init_extrema(extrema, TRACKED, y, (segment_start + sample) * dt + tau)
-        if stores_path and tau == 0.0:
-            store_sample(output, sample, y, mode)
+    begin_trajectory(state, output, TRACKED, dt)
     # bound of the third derivatives, not known
     energy = -1.0
     for i in range(TURN_X):
@@ -512,18 +510,11 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                     store_limit(output, event, 0, y)
                 next_mode = reset(mode, guard, y, f, p)
                 if stores_events:
-                    events[event, EVENT_SAMPLE], events[event, EVENT_GUARD] = segment_start + sample, guard
-                    events[event, EVENT_FROM], events[event, EVENT_TO] = mode, next_mode
-                    times[event] = tau
-                    store_limit(output, event, 1, y)
+                    store_event(output, event, segment_start + sample, guard, mode, next_mode, tau, y)
                 time = (segment_start + sample) * dt + tau
                 # a landing sets the force of its dashpot
                 _update_end(extrema, y, time, top)
-                if n_events == 0:
-                    clock[FIRST_EVENT_TIME] = time
-                store_dwell_time(output, mode, clock, time)
-                if output.transition_counts.shape[0] > 0:
-                    output.transition_counts[guard, next_mode] += 1
+                count_event(output, guard, mode, next_mode, n_events, clock, time)
                 mode, energy = next_mode, -1.0
                 n_events += 1
                 n_simultaneous += 1
@@ -539,17 +530,4 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             tau = 0.0
             if stores_path:
                 store_sample(output, sample, y, mode)
-    # end of a segment, not of the motion
-    if status == RECORD_ENDED and counters[SAMPLES_AFTER] > 0:
-        status = PAUSED
-    if status == RECORD_ENDED:
-        store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
-    counters[SAMPLE], counters[MODE], counters[N_EVENTS], counters[N_SIMULTANEOUS], counters[STEPS_LEFT] = (
-        segment_start + sample,
-        mode,
-        n_events,
-        n_simultaneous,
-        steps_left,
-    )
-    clock[TAU] = tau
-    return status
+    return end_call(state, output, status, segment_start + sample, mode, n_events, n_simultaneous, steps_left, tau, dt)

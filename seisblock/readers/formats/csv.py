@@ -219,14 +219,14 @@ def _read_unnamed(
     width, first_line = len(layout.names), layout.body + 1
     last = next(i for i in reversed(range(len(body))) if body[i].strip())
     rest = body[last].rstrip(" \t" + (layout.separator or "")).split(layout.separator)
-    whole = body[:last] if last > 0 and len(rest) < width else body
-    rows = parse_columns(name, whole, first_line, labels, width, layout.separator)
+    full_lines = body[:last] if last > 0 and len(rest) < width else body
+    rows = parse_columns(name, full_lines, first_line, labels, width, layout.separator)
     if _is_one_series(rows):
         indices = {str(i): i for i in range(len(rest))}
-        end = [] if whole is body else parse_columns(name, body[last:], first_line + last, indices, len(rest), layout.separator)
+        end = [] if full_lines is body else parse_columns(name, body[last:], first_line + last, indices, len(rest), layout.separator)
         note = lazy_gettext("one series with {count} samples per line, read line by line", count=width)
         return [np.concatenate([np.stack(rows, axis=1).ravel(), *end])], (note,)
-    return (rows if whole is body else parse_columns(name, body, first_line, labels, width, layout.separator)), ()
+    return (rows if full_lines is body else parse_columns(name, body, first_line, labels, width, layout.separator)), ()
 
 
 def _is_one_series(rows: Sequence[FloatArray]) -> bool:
