@@ -11,6 +11,7 @@ from seisblock.core.errors import SolverError
 from seisblock.models.jump import jump_many, solve_jump
 from seisblock.models.jump.segments import chain_warnings
 from seisblock.models.uplift import solve_uplift, uplift_many
+from seisblock.models.uplift.model import parameters
 from seisblock.models.uplift.outcome import warnings
 from seisblock.records import Motion
 from tests.models.uplift_motions import shaking
@@ -38,6 +39,14 @@ def test_uplift_many_rows_equal_solve_uplift():
         np.testing.assert_array_equal(
             result.time_on_corners_s[row] / result.time_on_corners_s[row].sum(), list(first.outcome.share_on_corners.values())
         )
+
+
+def test_uplift_parameters_do_not_depend_on_the_other_bodies():
+    """Propagators beside stiffer, softer, wider and narrower bodies: bit by bit those of the body alone."""
+    bodies = [*springs(20), SpringBlock.from_frequency(2.5, 0.2, 0.1, frequency_vertical=30.0, beta=2.0, damping=0.5)]
+    for dt in (0.005, 0.02):
+        together = parameters(bodies, 9.80665, dt)
+        np.testing.assert_array_equal(together, np.vstack([parameters([body], 9.80665, dt) for body in bodies]))
 
 
 def test_uplift_many_lifts_above_uplift_scale_only():

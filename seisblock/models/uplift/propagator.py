@@ -83,15 +83,19 @@ def _degrees(phase: FloatArray) -> FloatArray:
 
 
 def _exponential(matrices: FloatArray) -> FloatArray:
-    """Return the exponentials of matrices by scaling and squaring of the power series; unlike scipy's, exact zeros remain zero."""
-    norm = np.abs(matrices).sum(axis=-1).max(initial=1e-300)
-    squarings = max(int(np.ceil(np.log2(norm / 0.25))), 0)
-    scaled = matrices / 2.0**squarings
+    """Return the exponentials of matrices, a group per body, by scaling and squaring of the power series.
+
+    Unlike scipy's, exact zeros remain zero. Squarings are counted for each body, so that its bits do not depend on the others.
+    """
+    norm = np.abs(matrices).sum(axis=-1).max(axis=(1, 2))
+    squarings = np.maximum(np.ceil(np.log2(norm / 0.25)), 0.0).astype(np.int64)
+    scaled = matrices / 2.0 ** squarings[:, None, None, None]
     identity = np.eye(matrices.shape[-1])
     # 0.25^13 / 13! is below round-off
     result = identity + scaled / 12.0
     for k in range(11, 0, -1):
         result = identity + scaled @ result / k
-    for _ in range(squarings):
-        result = result @ result
+    for n in range(squarings.max()):
+        rows = squarings > n
+        result[rows] = result[rows] @ result[rows]
     return result
