@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from seisblock.records.azimuth import bearing_to_azimuth
 
 _COMPASS_WORDS = {
-    0.0: ("ns", "n", "north", "northsouth", "northward", "南北"),
-    90.0: ("ew", "e", "east", "eastwest", "eastward", "東西"),
+    0.0: ("ns", "sn", "n", "north", "northsouth", "southnorth", "northward", "南北"),
+    90.0: ("ew", "we", "e", "east", "eastwest", "westeast", "eastward", "東西"),
     180.0: ("s", "south", "southward"),
     270.0: ("w", "west", "westward"),
 }
@@ -132,7 +132,7 @@ def parse_direction(text: str) -> Direction | None:
     Parameters
     ----------
     text : str
-        ``NS``, ``N-S``, ``E/W``, ``north``, ``東西``; ``N10E``, ``N120E``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``, ``Z``; ``L``,
+        ``NS``, ``N-S``, ``E/W``, ``SN``, ``WE``, ``north``, ``東西``; ``N10E``, ``N120E``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``, ``Z``; ``L``,
         ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``; also with a word for component: ``UD成分``, ``東西方向``, ``上下動``,
         ``NS component``. A lone ``T`` is excluded: it may be the time.
 

@@ -40,12 +40,13 @@ def test_cell_in_quotes_may_have_several_lines(tmp_path):
         read_table(tmp_path, text + "c,,-1,1\n")
 
 
-@pytest.mark.parametrize("separator", [",", ";", "\t"])
+@pytest.mark.parametrize("separator", [",", ";", "\t", "|"])
 def test_comma_in_a_title_or_a_note_is_no_separator(tmp_path, separator):
     """The title decided: the header of a table of an Excel with another separator was one unknown column."""
     rows = [["name", "kind", "width (cm)", "height"], ['"vase, blue"', "statue", "12", "40cm"]]
     text = "Inventory, 2024\n" + "".join(f"{separator.join(row)}\n" for row in rows)
-    assert read_table(tmp_path, text) == {"vase, blue": {"kind": "statue", "width": 0.12, "height": 0.4}}
+    expected = {"vase, blue": {"kind": "statue", "width": 0.12, "height": 0.4}}
+    assert read_table(tmp_path, text) == read_table(tmp_path, f"sep={separator}\n{text}") == expected
 
 
 @pytest.mark.parametrize("heading", ["μ", "\u00b5", "摩擦係数 μ", "Friction coefficient"])

@@ -94,6 +94,22 @@ def test_components_without_names_stay_components(table):
             read(table("\n".join([*lines[:-1], "1.0"])), units="gal", dt=0.005)
 
 
+def test_columns_between_vertical_bars_are_read(table):
+    """The file was refused; a resultant ``|a|`` beside blanks is none of them."""
+    head = "time (s) | NS (gal) | EW (gal) | UD (gal)\n"
+    for text in (head + ROWS.format(" | "), head.replace(" | ", "|") + ROWS.format("|").replace(".", ",")):
+        assert [c.acceleration.tolist() for c in read(table(text)).components] == [[0.01, 0.04, 0.07], [0.02, 0.05, 0.08], [0.03, 0.06, 0.09]]
+    record = read(table("t ax ay |a|\n" + ROWS.format(" ")), units="gal")
+    assert record.codes == ("X", "Y") and "|a|" in record.history[0]
+
+
+@pytest.mark.parametrize("first", ["sep=;", "\ufeffSEP=;", '"sep=;"'])
+def test_separator_line_of_excel_is_skipped(table, first):
+    """The column names below it were not accepted."""
+    record = read(table(f"{first}\ntime (s);NS (gal);EW (gal);UD (gal)\n" + ROWS.format(";").replace(".", ",")))
+    assert (record.codes, record.dt, record.samples) == (("NS", "EW", "UD"), 0.01, 3)
+
+
 def test_decimal_commas_with_semicolons_are_accepted(table):
     """A spreadsheet of the continent: semicolons and decimal commas."""
     record = read(table("time;NS (g)\n0,00;0,5\n0,02;-0,25\n0,04;1\n"))
@@ -159,7 +175,7 @@ def test_clock_times_give_interval_and_start(table, form, start, clock):
         form.format(cell) if s < 86400 else form.replace("01-01", "01-02").replace("/1/1", "/1/2").format(cell)
         for s, cell in zip(seconds, cells, strict=True)
     ]
-    record = read(table("時刻,NS (gal),UD (gal)\n" + "".join(f"{day},{i},1\n" for i, day in enumerate(days))))
+    record = read(table("time,NS (gal),UD (gal)\n" + "".join(f"{day},{i},1\n" for i, day in enumerate(days))))
     assert (record.dt, record.samples, record.codes) == (0.005, 100, ("NS", "UD"))
     assert (record.start.isoformat() if record.start else None) == start
     assert record.metadata.get("clock") == clock
@@ -197,6 +213,13 @@ def test_south_west_and_down_are_converted(table):
     np.testing.assert_allclose(motion_of(record, "90").horizontal, [-0.02, -0.05, -0.08], rtol=1e-12)
     np.testing.assert_array_equal(record.vertical.acceleration, [-0.03, -0.06, -0.09])
     assert "positive down" in record.history[0]
+
+
+def test_names_from_south_to_north_and_from_west_to_east_have_azimuths(table):
+    """They were columns without a unit or axes of unknown azimuth."""
+    for header in ("SN (gal),WE (gal)", "S-N (gal),W-E (gal)"):
+        record = read(table(f"time,{header},UD (gal)\n" + ROWS.format(",")))
+        assert [(c.code, c.azimuth_deg) for c in record.components] == [("NS", 0.0), ("EW", 90.0), ("UD", None)]
 
 
 def test_euc_jp_is_read(table):
@@ -372,6 +395,17 @@ def test_time_zone_in_heading_is_used(table, zone):
     assert record.metadata["clock"] == "JST"
     assert record.history == ()
     assert read(table("time (hh:mm:ss),NS (gal)\n16:10:10.0,1\n16:10:10.1,2\n16:10:10.2,1\n")).dt == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize("heading", ["日時", "時刻 (s)"])
+def test_times_below_a_japanese_heading_are_in_jst(table, heading):
+    """They were taken as UTC: the start was nine hours late, and the clock shown that of another zone."""
+    rows = "".join(f"2024-01-01 00:00:10.{i:02d},{i},{-i}\n" for i in range(5))
+    record = read(table(f"{heading},NS (gal),EW (gal)\n{rows}"))
+    assert (record.start.isoformat(), record.metadata["clock"]) == ("2023-12-31T15:00:10+00:00", "JST")
+    assert record.history == ("times taken as JST (Japanese heading without a time zone)",)
+    stated = "".join(f"2024-01-01 00:00:10.{i:02d}Z,{i},{-i}\n" for i in range(5))
+    assert read(table(f"{heading},NS (gal),EW (gal)\n{stated}")).start.isoformat() == "2024-01-01T00:00:10+00:00"
 
 
 def test_unit_line_may_have_gaps_and_other_units(table):

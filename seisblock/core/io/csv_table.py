@@ -22,6 +22,11 @@ MAX_LISTED_ROWS = 5
 """Maximum number of further invalid rows listed in a message."""
 
 
+def is_separator_line(line: str) -> bool:
+    """Return whether a line is the first one of a table by which Excel knows its separator (``sep=;``)."""
+    return re.fullmatch(r'"?sep=.?"?', line.strip("\ufeff \t"), re.IGNORECASE) is not None
+
+
 def decode_text(data: bytes, name: str) -> str:
     """Return the text of the content of a file in UTF-8 (with or without a byte order mark), Shift-JIS or UTF-16.
 

@@ -36,7 +36,7 @@ from seisblock.readers.table.parse import parse_columns, to_si_in_place
 from seisblock.readers.table.sampling import Timestamp, parse_timestamp, sampling_interval, seconds_replacer
 from seisblock.records import Component, QCFlag, Record
 
-_QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
+_QUOTED = re.compile(r'(?<![^\s,;|])"([^"]*)"(?![^\s,;|])')
 MIN_SERIES_LINES = 20
 """Fewest lines in which one series with several samples per line is recognised."""
 
@@ -49,7 +49,7 @@ _TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s"
 def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None = None) -> Record:
     """Return the record in a plain table.
 
-    Cells are separated by commas, semicolons (decimal comma allowed), tabs or blanks; ``#`` begins a comment. The first line may name the
+    Cells are separated by commas, semicolons (decimal comma allowed), tabs, vertical bars or blanks; ``#`` begins a comment. The first line may name the
     columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or units in a line
     below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock time with a date
     (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time, and columns
@@ -110,7 +110,8 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
             name=blob.name,
             columns=[name.strip() for name in layout.names] if has_names else [lazy_gettext("time")],
         )
-    start, start_notes = _start_time(first_timestamp, _zone_offset_s(columns))
+    zone_s, zone_note = _time_zone(columns, first_timestamp)
+    start = None if first_timestamp is None or first_timestamp.utc is None else first_timestamp.utc - timedelta(seconds=zone_s)
     has_time = any(column.code == TIME for column in columns.columns)
     flags = _qc_flags(lines, layout.body, has_time=has_time, short_end=bool(series_notes)) + flag_missing_points(
         body, layout.body + 1, layout.separator
@@ -125,13 +126,9 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
         start=start,
         source=blob.name,
         format=FORMAT.name,
-        history=(*columns.notes, *start_notes),
+        history=(*columns.notes, *([zone_note] if start and zone_note else [])),
         metadata=metadata
-        | (
-            {"clock": "JST"}
-            if start and first_timestamp and JST.total_seconds() in (first_timestamp.utc_offset_s, _zone_offset_s(columns))
-            else {}
-        ),
+        | ({"clock": "JST"} if start and first_timestamp and JST.total_seconds() in (first_timestamp.utc_offset_s, zone_s) else {}),
         doubts=flags,
     )
 
@@ -146,18 +143,20 @@ def _replace_timestamps(columns: TableColumns, body: Sequence[str], separator: s
     return first, map_lines(body, seconds_replacer(column.index, separator, first))
 
 
-def _zone_offset_s(columns: TableColumns) -> int | None:
-    """Return the UTC offset, s, in the name of the time column: ``time (JST)``."""
-    return next((zone_offset_s(split_unit(column.label)[1]) for column in columns.columns if column.code == TIME), None)
+def _time_zone(columns: TableColumns, first: Timestamp | None) -> tuple[int, Message | None]:
+    """Return the UTC offset of the clock times, s, beyond the one in their cells, and a history note where it is assumed.
 
-
-def _start_time(timestamp: Timestamp | None, zone_s: int | None) -> tuple[datetime | None, tuple[str, ...]]:
-    """Return the UTC start from a clock time, and history notes."""
-    if timestamp is None or timestamp.utc is None:
-        return None, ()
-    if timestamp.utc_offset_s is None and zone_s is not None:
-        return timestamp.utc - timedelta(seconds=zone_s), ()
-    return timestamp.utc, () if timestamp.utc_offset_s is not None else (lazy_gettext("times taken as UTC (no time zone in the file)"),)
+    It is that in the name of the time column, ``time (JST)``; without one, times below a Japanese name are in JST, others in UTC.
+    """
+    label = next((column.label for column in columns.columns if column.code == TIME), "")
+    stated_s = zone_offset_s(split_unit(label)[1])
+    if first is None or first.utc_offset_s is not None:
+        return 0, None
+    if stated_s is not None:
+        return stated_s, None
+    if label.isascii():
+        return 0, lazy_gettext("times taken as UTC (no time zone in the file)")
+    return int(JST.total_seconds()), lazy_gettext("times taken as JST (Japanese heading without a time zone)")
 
 
 def _parse_columns(name: str, lines: Sequence[str], names: Sequence[str], units: str | None) -> TableColumns:

@@ -66,7 +66,7 @@ _OTHER_NAMES = {
     N_("remarks"): ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
 }
 # 合成波, 合成地震動: a synthetic motion
-_RESULTANT = re.compile(r"合成(?!地震|波|動)|\bresultant\b|\bvector[ _]?sum\b", re.IGNORECASE)
+_RESULTANT = re.compile(r"合成(?!地震|波|動)|\bresultant\b|\bvector[ _]?sum\b|^\|[^|]+\|$", re.IGNORECASE)
 _QUANTITY_BY_UNIT = {spelling: quantity for quantity, spellings in _OTHER_UNITS.items() for spelling in spellings}
 _QUANTITY_BY_NAME = {spelling: quantity for quantity, spellings in _OTHER_NAMES.items() for spelling in spellings}
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from seisblock.core.errors import RecordFormatError
+from seisblock.core.io.csv_table import is_separator_line
 from seisblock.readers._header import parse_number
 from seisblock.readers.table.columns import is_header_row
 from seisblock.readers.table.headers import is_clock_unit, is_unit, split_unit
@@ -69,7 +70,10 @@ MAX_PREAMBLE_LINES = 100
 MAX_QUOTED_LENGTH = 60
 """Longest quotation of a line in messages, letters."""
 
-_WIDTH_TOLERANT = {",", ";", "\t"}
+_ABSOLUTE_VALUE = re.compile(r"(?<!\S)\|[^|\s]+\|(?!\S)")
+"""Name of a resultant, ``|a|``, in a header separated by blanks."""
+
+_WIDTH_TOLERANT = {",", ";", "\t", "|"}
 
 
 @dataclass(frozen=True)
@@ -183,15 +187,18 @@ def _refine_layout(lines: Sequence[str], layout: TableLayout) -> TableLayout:
 
 
 def find_separator(line: str) -> str | None:
-    """Return the separator of a line: semicolon, tab, comma, else None for blanks."""
-    # the comma last: beside semicolons and tabs it may be a decimal comma
-    return next((mark for mark in (";", "\t", ",") if mark in line), None)
+    """Return the separator of a line: semicolon, tab, comma, vertical bar, else None for blanks."""
+    # the comma after semicolons and tabs: beside them it may be a decimal comma
+    mark = next((mark for mark in (";", "\t", ",", "|") if mark in line), None)
+    return None if mark == "|" and _ABSOLUTE_VALUE.search(line) else mark
 
 
 def is_data_line(line: str) -> bool:
-    """Return whether a line is neither blank nor a comment."""
+    """Return whether a line is neither blank, nor a comment, nor Excel's statement of the separator (``sep=;``)."""
     # most lines begin with a digit or a sign
-    return line[:1] in _NUMBER_STARTS or (bool(line.strip(" \t,;\ufeff")) and not line.lstrip("\ufeff ").startswith("#"))
+    if line[:1] in _NUMBER_STARTS:
+        return True
+    return bool(line.strip(" \t,;|\ufeff")) and not line.lstrip("\ufeff ").startswith("#") and not is_separator_line(line)
 
 
 def _unit_cells(line: str, separator: str | None) -> list[str]:
