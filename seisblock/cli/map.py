@@ -35,6 +35,9 @@ BODY_OPTIONS = (
 )
 """Further options of the body and the solver."""
 
+SOLVERS = tuple(name for name in solver_names() if name != "stack")
+"""Solvers of a body at a station: all but that of piles; a registration is imported with its model only."""
+
 DEFAULT_RUNS = 50
 """Default number of samples for an overturning probability."""
 
@@ -66,7 +69,7 @@ DEFAULT_RUNS = 50
     section="Body",
     help="--solver uplift: natural frequency of the vertical motion on the springs, Hz.",
 )
-@option("--solver", type=SuggestingChoice(solver_names()), help="Model that computes the response. [default: respond]")
+@option("--solver", type=SuggestingChoice(SOLVERS), help="Model that computes the response. [default: respond]")
 @option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: applied where the record has one]")
 @option(
     "--runs",

@@ -116,7 +116,6 @@ def secure(
     from seisblock.core.errors import ParameterError
     from seisblock.report.json.secure import document
     from seisblock.report.text import secure as text_output
-    from seisblock.studies.scenario.assess import UNKNOWN_FRICTION_RANGE
     from seisblock.studies.scenario.secure import find_measures, unresolved_target
 
     # before the records are generated
@@ -127,10 +126,10 @@ def secure(
     common = {"vertical": vertical, "gravity": gravity, "settle_s": settle_s}
     if bodies is None:
         reject_without("--bodies", ["object_name"])
-        body, body_notes = _choose_body([make_body_spec(params, "respond")], None, common)
+        body, is_drawn, body_notes = _choose_body([make_body_spec(params, "respond")], None, common)
     else:
         reject_with("--bodies", [name for name in params if name != "mu"])
-        body, body_notes = _choose_body(read_body_list(bodies)[0], object_name, {**common, "mu": params["mu"]})
+        body, is_drawn, body_notes = _choose_body(read_body_list(bodies)[0], object_name, {**common, "mu": params["mu"]})
     for note in body_notes:
         info("{note}", note=note)
     frequencies = None
@@ -167,7 +166,7 @@ def secure(
             result,
             motions,
             body.options,
-            mu=None if getattr(body.body.ranges, "mu", None) == UNKNOWN_FRICTION_RANGE else body.options.mu,
+            mu=None if is_drawn else body.options.mu,
             seed=seed,
             hazard=None if hazard is None else hazard.name,
             notes=notes,
@@ -180,13 +179,14 @@ def secure(
     )
 
 
-def _choose_body(specs: Sequence[BodySpec], name: str | None, options: Mapping[str, Any]) -> tuple[SolverBody, tuple[Message, ...]]:
-    """Return an object of a table, by name where there are several, and notes on what was assumed."""
+def _choose_body(specs: Sequence[BodySpec], name: str | None, options: Mapping[str, Any]) -> tuple[SolverBody, bool, tuple[Message, ...]]:
+    """Return an object of a table, by name where there are several, whether its friction is assumed, and notes on what was assumed."""
     from dataclasses import replace
 
+    from seisblock.bodies.table import resolve_kinds
     from seisblock.core.errors import BodyError
     from seisblock.core.registry import SolverBody
-    from seisblock.studies.scenario.assess import scenario_bodies
+    from seisblock.studies.scenario.assess import is_friction_unknown, scenario_bodies
 
     bodies, _ = scenario_bodies(specs, options)
     index = next((i for i, body in enumerate(bodies) if body.name == name or (name is None and len(bodies) == 1)), None)
@@ -199,6 +199,8 @@ def _choose_body(specs: Sequence[BodySpec], name: str | None, options: Mapping[s
     if not isinstance(body, SolverBody):
         raise BodyError("{name}: {why}", name=body.name, why=body.reason)
     # alone, for notes on this object only
-    (solver_body,), notes = scenario_bodies([replace(specs[index], name=body.name)], options)
+    spec = replace(specs[index], name=body.name)
+    (solver_body,), notes = scenario_bodies([spec], options)
     assert isinstance(solver_body, SolverBody)
-    return solver_body, notes
+    is_drawn = options.get("mu") is None and is_friction_unknown(resolve_kinds([spec])[0][0])
+    return solver_body, is_drawn, notes

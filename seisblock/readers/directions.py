@@ -132,9 +132,9 @@ def parse_direction(text: str) -> Direction | None:
     Parameters
     ----------
     text : str
-        ``NS``, ``N-S``, ``E/W``, ``SN``, ``WE``, ``north``, ``東西``; ``N10E``, ``N120E``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``, ``Z``; ``L``,
-        ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``; also with a word for component: ``UD成分``, ``東西方向``, ``上下動``,
-        ``NS component``. A lone ``T`` is excluded: it may be the time.
+        ``NS``, ``N-S``, ``E/W``, ``SN``, ``WE``, ``north``, ``東西``; ``N10E``, ``N120E``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``,
+        ``Z``; ``L``, ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``; also
+        with a word for component: ``UD成分``, ``東西方向``, ``上下動``, ``NS component``. A lone ``T`` is excluded: it may be the time.
 
     Examples
     --------

@@ -9,8 +9,10 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
+from seisblock.cli.map import SOLVERS
 from seisblock.core.registry import get_solver
 from seisblock.references import papers
+from seisblock.studies.map.station_response import station_solvers
 from tests.stations import EPICENTRE, bundle, station_files
 
 
@@ -96,6 +98,7 @@ def test_map_prints_outcome_earthquake_and_stations(tmp_path, monkeypatch):
         (["shafter_1989", "--solver", "rock", "--cemetery", "aoyama.csv"], 2, "--cemetery and a body exclude each other"),
         (["shafter_1989", "--solver", "rock"], 3, "body required (--width, --height missing)"),
         (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu: omit it"),
+        (["shafter_1989", "--solver", "stack", "--block", "wagata"], 2, "'stack' is not one of 'jump', 'respond'"),
         (["shafter_1989", "--solver", "slide", "--mu", "0.1", "--runs", "9"], 3, "slide does not support samples"),
         (["shafter_1989", "--solver", "jump", "--block", "gravestone"], 3, "jump requires a two-layer body"),
         (["shafter_1989", "--solver", "uplift", "--width", "1", "--height", "3"], 3, "spring stiffness required"),
@@ -113,6 +116,11 @@ def test_map_reports_bad_input_in_one_sentence(words, code, says, tmp_path):
     result = CliRunner().invoke(main, ["map", *words])
     assert result.exit_code == code
     assert says in " ".join(result.stderr.split())
+
+
+def test_map_lists_the_solvers_that_it_accepts():
+    """It listed ``stack`` and refused it."""
+    assert list(SOLVERS) == station_solvers()
 
 
 def test_map_warns_of_records_far_apart_in_time():

@@ -7,7 +7,9 @@ import re
 import pytest
 from click.testing import CliRunner
 
+from seisblock.bodies.table import read_body_list
 from seisblock.cli import main
+from seisblock.cli.secure import _choose_body
 from seisblock.report.figures.probability import share_colour
 
 TABLE = "名称,幅(cm),奥行(cm),高さ(cm),質量(kg),種類\n仏像,40,35,120,80,\n=本棚,90,30,180,,bookcase\n壺,25,25,30,8,\n"
@@ -145,6 +147,14 @@ def test_secure_assumes_the_friction_and_gives_the_probability_of_a_scenario(tmp
         document = json.loads(run("secure", *SHORT, "--jma", "6-", *body, "--target", "10%", "--json").stdout)
         assert document["results"][0]["overturning_probability"] == results[0]["overturning_probability"]
         assert document["parameters"]["mu"] is None
+
+
+@pytest.mark.parametrize(("cell", "is_drawn"), [("", True), ("0.2-0.7", False), ("0.3", False)])
+def test_secure_knows_a_given_range_from_the_assumed_one(cell, is_drawn, tmp_path):
+    """The document of an object with the user's own range 0.2-0.7 gave no friction."""
+    (tmp_path / "list.csv").write_text(f"name,width,height,mu\nshelf,0.3,1.5,{cell}\n")
+    body, drawn, _ = _choose_body(read_body_list(tmp_path / "list.csv")[0], None, {})
+    assert drawn == is_drawn and body.options.mu == pytest.approx({"": 0.4, "0.2-0.7": 0.45, "0.3": 0.3}[cell])
 
 
 @pytest.mark.parametrize(

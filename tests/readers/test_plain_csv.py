@@ -98,7 +98,8 @@ def test_columns_between_vertical_bars_are_read(table):
     """The file was refused; a resultant ``|a|`` beside blanks is none of them."""
     head = "time (s) | NS (gal) | EW (gal) | UD (gal)\n"
     for text in (head + ROWS.format(" | "), head.replace(" | ", "|") + ROWS.format("|").replace(".", ",")):
-        assert [c.acceleration.tolist() for c in read(table(text)).components] == [[0.01, 0.04, 0.07], [0.02, 0.05, 0.08], [0.03, 0.06, 0.09]]
+        rows = [c.acceleration.tolist() for c in read(table(text)).components]
+        assert rows == [[0.01, 0.04, 0.07], [0.02, 0.05, 0.08], [0.03, 0.06, 0.09]]
     record = read(table("t ax ay |a|\n" + ROWS.format(" ")), units="gal")
     assert record.codes == ("X", "Y") and "|a|" in record.history[0]
 

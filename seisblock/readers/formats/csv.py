@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from datetime import datetime, timedelta
+from datetime import timedelta
 from functools import partial
 
 import numpy as np
@@ -49,12 +49,12 @@ _TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s"
 def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None = None) -> Record:
     """Return the record in a plain table.
 
-    Cells are separated by commas, semicolons (decimal comma allowed), tabs, vertical bars or blanks; ``#`` begins a comment. The first line may name the
-    columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or units in a line
-    below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock time with a date
-    (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time, and columns
-    that continue each other line by line are one series. `units` is the unit of columns without one, `dt` the sampling interval, s, of a
-    table without a time column.
+    Cells are separated by commas, semicolons (decimal comma allowed), tabs, vertical bars or blanks; ``#`` begins a comment. The first line
+    may name the columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or
+    units in a line below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock
+    time with a date (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time, and columns that
+    continue each other line by line are one series. `units` is the unit of columns without one, `dt` the sampling interval, s, of a table
+    without a time column.
 
     Raises
     ------

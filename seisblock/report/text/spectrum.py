@@ -72,12 +72,12 @@ def verdict(motion: Motion, spectrum: RockingSpectrum) -> str:
 
 def _spectrum_table(motion: Motion, spectrum: RockingSpectrum, kind: str, wear_text: str, max_rows: int) -> Iterator[Any]:
     rows, columns = thin_indices(spectrum.size_m.size, max_rows), thin_indices(spectrum.slenderness_rad.size, MAX_COLUMNS)
-    quantity = gettext("overturning") if kind == "overturning" else gettext("peak tilt over alpha (>1: overturns)")
+    quantity = gettext("overturning") if kind == "overturning" else gettext("peak tilt over alpha (#: overturns)")
     if spectrum.overturning_rate is not None:
         quantity = (
             gettext("share of azimuths with overturning")
             if kind == "overturning"
-            else gettext("peak tilt over alpha in the worst azimuth (>1: overturns)")
+            else gettext("peak tilt over alpha in the worst azimuth (#: overturns)")
         )
     header = [f"{1 / math.tan(spectrum.slenderness_rad[j]):.2f}" for j in columns]
     cells = [[f"{spectrum.size_m[i]:.3g}", *(_cell(spectrum, i, j, kind) for j in columns)] for i in rows]
@@ -95,7 +95,7 @@ def _cell(spectrum: RockingSpectrum, i: int, j: int, kind: str) -> str:
             return DASH
         return gettext("yes") if spectrum.overturning_rate is None else format_share(spectrum.overturning_rate[i, j])
     if spectrum.overturned[i, j]:
-        return ">1"
+        return "#"
     ratio = spectrum.max_rotation_ratio[i, j]
     return DASH if ratio == 0.0 else f"{ratio:.3f}"
 
