@@ -11,16 +11,39 @@ def all_but_slow(values: Iterable, quick: Set) -> list:
     return [value if value in quick else pytest.param(value, marks=pytest.mark.slow) for value in values]
 
 
-@contextmanager
-def short_scenarios() -> Iterator[None]:
-    """Take a quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, and fewer runs of each.
+SCENARIOS = {
+    "motions.DEFAULT_RECORDS": 10,
+    "motions.RECORDINGS": ("shafter_1989",),
+    "hazard.RECORDS_PER_LEVEL": 2,
+    "assess.MIN_RUNS": 20,
+    "secure.FULL_RUNS": 40,
+    "secure.QUICK_RUNS": 20,
+    "secure.COARSE": 6,
+}
+"""A quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, and fewer runs of each."""
 
-    For tests of what `secure` and `scenario` accept and print; guides show the values of all runs.
+FITS = {
+    "importance_sampling.INITIAL_BLOCKS": 16,
+    "importance_sampling.SEARCH_BLOCKS": 32,
+    "importance_sampling.CANDIDATES": 256,
+    "importance_sampling.PROPOSAL_BLOCKS": 64,
+    "importance_sampling.MIN_EFFECTIVE": 15.0,
+    "importance_sampling.TARGET_EFFECTIVE": 40.0,
+    "importance_sampling.MIN_EFFECTIVE_WITHOUT": 5.0,
+    "fit.TARGET_EFFECTIVE": 40.0,
+    "fit.MIN_EFFECTIVE_HELD_OUT": 5.0,
+}
+"""A quarter of the blocks of a fit."""
+
+
+@contextmanager
+def short_studies() -> Iterator[None]:
+    """Take few records and runs for `secure` and `scenario`, and few blocks for `fit`.
+
+    For tests of what these commands accept and print; guides show the values of all runs.
     """
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("seisblock.studies.scenario.motions.DEFAULT_RECORDS", 10)
-        patch.setattr("seisblock.studies.scenario.motions.RECORDINGS", ("shafter_1989",))
-        patch.setattr("seisblock.studies.scenario.hazard.RECORDS_PER_LEVEL", 2)
-        patch.setattr("seisblock.studies.scenario.assess.MIN_RUNS", 20)
-        patch.setattr("seisblock.studies.scenario.secure.FULL_RUNS", 40)
+        for package, constants in (("scenario", SCENARIOS), ("fit", FITS)):
+            for name, value in constants.items():
+                patch.setattr(f"seisblock.studies.{package}.{name}", value)
         yield

@@ -16,7 +16,7 @@ from seisblock.output.text.tables import Part, details, shortened_answer, styled
 from seisblock.output.text.wrap import display_width
 from tests.i18n.english import english_words
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("computed_once")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("computed_once", "few_runs")]
 
 MAX_LINES, WIDTH = 40, 80
 

@@ -16,6 +16,8 @@ from seisblock.cli import main
 from seisblock.samples import sample_path
 from tests.bodies.meshes import box, write_stl
 
+pytestmark = pytest.mark.usefixtures("computed_once", "few_runs")
+
 SHORT = ("synthetic_jma.csv", "--window", "24:27")
 
 
@@ -38,6 +40,14 @@ def stone(tmp_path_factory):
     result = run("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--name", "stone", "--out", path)
     assert result.exit_code == 0 and f"wrote {path}" in result.stderr.replace("\n", "")
     return path
+
+
+@pytest.fixture(scope="module")
+def slab(tmp_path_factory):
+    """Return the file of a scan of eight vertices, which three dimensions solve a hundred times as fast as those of the boulder."""
+    folder = tmp_path_factory.mktemp("slab")
+    assert run("body", write_stl(folder / "slab.stl", *box(0.5, 0.6, 0.9)), "--out", folder / "slab.toml").exit_code == 0
+    return folder / "slab.toml"
 
 
 def test_body_file_equals_library_body(stone):
@@ -119,11 +129,11 @@ def test_batch_of_scan_without_azimuth_fails_its_row_only(stone, tmp_path):
 
 
 @pytest.mark.slow
-def test_all_azimuths_of_scan_lists_worst_first(stone, tmp_path):
+def test_all_azimuths_of_scan_lists_worst_first(slab, tmp_path):
     """The worst direction is the one that is answered, and stands first among all of them; the rose is drawn."""
-    for words in (("rock",), ("respond", "--planar", "--mu", "0.4", "--runs", "0"), ("respond", "--mu", "0.4", "--runs", "0")):
+    for words in (("rock",), ("respond", "--planar", "--mu", "0.2", "--runs", "0"), ("respond", "--mu", "0.2", "--runs", "0")):
         figure = tmp_path / f"{words[0]}.svg"
-        line = (words[0], *SHORT, *words[1:], "--block", stone, "--component", "all-azimuths", "--scale", "0.5")
+        line = (words[0], *SHORT, *words[1:], "--block", slab, "--component", "all-azimuths")
         (result,) = document(*line, "--plot", figure)["results"]
         directions = result["directions"]
         in_space = words[0] == "respond" and "--planar" not in words

@@ -222,28 +222,16 @@ def examples(name):
     return [line for line in lines if line]
 
 
-SMALLER = {
-    "secure": {"scenario.secure.COARSE": 5, "scenario.secure.QUICK_RUNS": 20},
-    "stack": {"gravestone_criterion.PGAS": (4.0, 8.0, 12.0)},
-    "fit": {
-        f"fit.importance_sampling.{constant}": value
-        for constant, value in {"INITIAL_BLOCKS": 16, "SEARCH_BLOCKS": 32, "PROPOSAL_BLOCKS": 64, "MAX_PROPOSALS": 2}.items()
-    },
-}
-"""Studies of examples that are to run, not to be precise: constants below `seisblock.studies` by command."""
-
-
 @pytest.mark.slow
+@pytest.mark.usefixtures("few_runs")
 @pytest.mark.parametrize("name", ["", *COMMANDS])
 def test_help_examples_run(name, workshop, monkeypatch, request):
     """At least two lines at the end of each help can be pasted as they stand, and run; the page is not served, nor a server asked."""
     monkeypatch.setattr("seisblock.app.server.serve", lambda listener, *rest: listener.close())
     if name == "fetch":
         request.getfixturevalue("centers")
-    if name in {"scenario", "secure"}:
-        request.getfixturevalue("few_runs")
-    for target, value in SMALLER.get(name, {}).items():
-        monkeypatch.setattr(f"seisblock.studies.{target}", value)
+    # examples are to run, not to be precise
+    monkeypatch.setattr("seisblock.studies.gravestone_criterion.PGAS", (4.0, 8.0, 12.0))
     lines = examples(name)
     assert len(lines) >= 2
     for line in lines:

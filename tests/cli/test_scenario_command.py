@@ -12,6 +12,8 @@ from seisblock.cli import main
 from seisblock.cli.secure import _choose_body
 from seisblock.report.figures.probability import share_colour
 
+pytestmark = pytest.mark.usefixtures("computed_once")
+
 TABLE = "名称,幅(cm),奥行(cm),高さ(cm),質量(kg),種類\n仏像,40,35,120,80,\n=本棚,90,30,180,,bookcase\n壺,25,25,30,8,\n"
 SHORT = ("synthetic_jma.csv", "--window", "25:30")
 

@@ -15,7 +15,7 @@ from seisblock.cli.options import Source
 from seisblock.cli.output import OutputOptions
 from seisblock.readers.options import ReadOptions
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("computed_once")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("computed_once", "few_runs")]
 
 SHORT = ("synthetic_jma.csv", "--window", "25.5:26.5", "--component", "NS")
 BLOCK = ("--width", "24cm", "--height", "72cm")

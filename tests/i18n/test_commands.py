@@ -13,7 +13,7 @@ from seisblock.core import i18n
 from seisblock.output.text.wrap import display_width
 from tests.architecture.test_vocabulary import is_polite, japanese_sentences
 from tests.i18n.english import english_words
-from tests.lengths import all_but_slow, short_scenarios
+from tests.lengths import short_studies
 
 pytestmark = pytest.mark.usefixtures("computed_once")
 
@@ -107,7 +107,7 @@ def whole(line):
     return (*line, "--details") if any("--details" in parameter.opts for parameter in main.get_command(None, line[0]).params) else line
 
 
-TEXT = all_but_slow([whole(line) for line in ANSWERS], {whole(line) for line in ANSWERS if line[0] != "fit"})
+TEXT = [whole(line) for line in ANSWERS]
 """Those in full, of which one takes seconds."""
 
 REFUSALS = (
@@ -231,7 +231,7 @@ def run_in_language(tmp_path_factory):
         return answers[line, lang]
 
     # texts are the point here, not how well the probabilities of `secure` are known
-    with pytest.MonkeyPatch.context() as patch, short_scenarios():
+    with pytest.MonkeyPatch.context() as patch, short_studies():
         patch.setattr(i18n, "LOCALE_DIR", folder)
         patch.setattr(locale, "LOCALE_DIR", folder)
         i18n._load_catalogue.cache_clear()

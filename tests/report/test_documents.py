@@ -16,7 +16,7 @@ from seisblock.output.json.encode import to_builtins
 from seisblock.output.json.units import split_unit
 from seisblock.references import REFERENCES, cited_commands, command_papers
 from seisblock.report.json.registry import document_commands, document_schemas, json_schema
-from tests.lengths import short_scenarios
+from tests.lengths import short_studies
 from tests.readers.data_center import data_center
 from tests.report.document_keys import lines, missing_lines, stored_lines
 
@@ -123,7 +123,7 @@ def documents(tmp_path_factory):
         return expected[line]
 
     # keys and types are the point here, not how well the probabilities of `secure` are known
-    with short_scenarios():
+    with short_studies():
         yield run
 
 
