@@ -56,7 +56,7 @@ def shakings():
 
 
 def strong_part(motion):
-    """Return a motion from 0.2 s before its horizontals exceed 0.3 of their peak to 2 s after: of 2400 stones 5 fall otherwise, by chaos."""
+    """Return a motion from 0.2 s before its horizontals exceed 0.3 of their peak to 2 s after: 5 of 2400 stones fall otherwise, chaos."""
     horizontal = np.hypot(motion.horizontal, motion.transverse)
     above = np.flatnonzero(horizontal > 0.3 * horizontal.max())
     return Motion(motion.acceleration[:, max(above[0] - round(0.2 / motion.dt), 0) : above[-1] + round(2.0 / motion.dt)], motion.dt)
