@@ -12,9 +12,9 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.typing import ArrayLike
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate_many
-from seisblock.models.uplift.batch_results import UpliftBatchResult, batch_end_states, batch_result
+from seisblock.models.uplift.batch_results import CHANGE_FACTOR, UpliftBatchResult, batch_end_states, batch_result
 from seisblock.models.uplift.constants import ALL_CORNERS, FIRST, GLUED
-from seisblock.models.uplift.model import UPLIFT, parameters, static_state, with_round_off
+from seisblock.models.uplift.model import UPLIFT, parameters, static_state
 from seisblock.records._validation import validate_motion
 from seisblock.records.motion import Motion
 
@@ -60,13 +60,16 @@ def uplift_many(
     p, initial_states = parameters(bodies, gravity, motion.dt), np.array([static_state(body, gravity) for body in all_bodies])
     p = np.repeat(p, runs, axis=0) if len(bodies) == 1 else p
     ensemble = integrate_many(UPLIFT, motion, p, initial_states, ALL_CORNERS, gains=rows, allow_failures=True)
-    gave_up, linear, repeat = ensemble.failed.copy(), ensemble.extrema.copy(), ensemble.extrema.copy()
+    gave_up, linear = ensemble.failed.copy(), ensemble.extrema.copy()
+    changed_extrema, changed_final = ensemble.extrema.copy(), ensemble.final.copy()
     lifted = np.flatnonzero(ensemble.final[:, FIRST] > 0.0)
     if len(lifted):
-        # without uplift a run is the linear one, in which round-off does not grow
+        # without uplift a run is the linear one, in which changes do not grow
         gains_lifted = rows if len(rows) == 1 else rows[lifted]
-        for rows_p, mode, extrema in ((with_round_off(p), ALL_CORNERS, repeat), (p, GLUED, linear)):
-            run = integrate_many(UPLIFT, motion, rows_p[lifted], initial_states[lifted], mode, gains=gains_lifted, allow_failures=True)
-            extrema[lifted] = run.extrema
-            gave_up[lifted] |= run.failed
-    return batch_result(all_bodies, batch_end_states(ensemble), linear, repeat, gravity, gave_up)
+        changed, bonded = (
+            integrate_many(UPLIFT, motion, p[lifted], initial_states[lifted], mode, gains=factor * gains_lifted, allow_failures=True)
+            for factor, mode in ((CHANGE_FACTOR, ALL_CORNERS), (1.0, GLUED))
+        )
+        changed_extrema[lifted], changed_final[lifted], linear[lifted] = changed.extrema, changed.final, bonded.extrema
+        gave_up[lifted] |= changed.failed | bonded.failed
+    return batch_result(all_bodies, batch_end_states(ensemble), linear, changed_extrema, changed_final, gravity, gave_up)

@@ -18,6 +18,12 @@ from seisblock.models.uplift.constants import ALL_CORNERS, CHANGES, FIRST, TURN_
 MAX_LEAN_RATIO = 0.1
 """Largest ratio of tilt to overturning angle at which neglecting the P-delta effect is acceptable."""
 
+CHANGE_FACTOR = 1.0 + 2e-9
+"""Factor on the motion of a second run, which shows whether the result depends on changes that no record resolves."""
+
+CHANGE_TOLERANCE, COUNT_TOLERANCE = 1e-3, 1e-2
+"""Relative differences of maxima, and of the number of contact changes, between the two runs above which a result is sensitive."""
+
 ROUND_OFF = 1e-12
 """Rise of a corner over the static settlement below which the corner is at rest."""
 
@@ -67,8 +73,11 @@ class UpliftBatchResult(DisplayMixin):
         NaN if no amplitude lifts a corner.
     max_rotation_rad, lean_ratio : rad, 1
     within_model : bool
-    rise_m, repeat_rise_m : m
-        Highest position of any corner above the spring's natural length, from two integrations with different round-off.
+    rise_m, changed_rise_m : m
+        Highest position of any corner above the spring's natural length, under the motion and under the motion times 1 + 2e-9.
+    sensitive : bool
+        Whether that change of the motion changes the largest rise, force or rotation by more than 0.1 %, or the number of contact
+        changes by more than 1 %.
     gave_up : bool
         Abandoned runs without a result: their other entries refer to the instant of abandonment.
     """
@@ -88,7 +97,8 @@ class UpliftBatchResult(DisplayMixin):
     lean_ratio: FloatArray
     within_model: BoolArray
     rise_m: FloatArray
-    repeat_rise_m: FloatArray
+    changed_rise_m: FloatArray
+    sensitive: BoolArray
     gave_up: BoolArray
 
     def row_dict(self, row: int, start_s: float) -> dict[str, Any]:
@@ -144,7 +154,8 @@ def batch_result(
     bodies: Sequence[SpringBlock],
     ends: UpliftEndStates,
     linear_extrema: FloatArray,
-    repeat_extrema: FloatArray,
+    changed_extrema: FloatArray,
+    changed_final: FloatArray,
     gravity: float,
     gave_up: BoolArray | None = None,
 ) -> UpliftBatchResult:
@@ -155,18 +166,27 @@ def batch_result(
     bodies : sequence of SpringBlock
         One per row.
     ends : UpliftEndStates
-    linear_extrema, repeat_extrema : (m, n_tracked, 4) arrays
-        Extrema of the linear system, and of an integration with different round-off.
+    linear_extrema, changed_extrema : (m, n_tracked, 4) arrays
+        Extrema of the linear system, and under the motion times 1 + 2e-9.
+    changed_final : (m, n_states) array
+        Final states under that motion.
     gravity : float, m/s^2
     gave_up : (m,) array of bool or None
         Abandoned runs; None: no run was abandoned.
     """
     settlement = np.array([body.static_settlement(gravity) for body in bodies])
     mass, width, depth, height = np.array([[body.mass, body.width, body.depth, body.height] for body in bodies]).T
-    about_x, about_y = (_max_abs(ends.extrema[:, state]) / depth for state in (TURN_X, TURN_Y))
+    about_x, about_y = _max_rotations(ends.extrema, depth)
     lean = np.maximum(height / depth * about_x, height / width * about_y)
     rise, linear_rise = _max_corner_rise(ends.extrema), _max_corner_rise(linear_extrema) + settlement
-    force = mass * ends.extrema[:, F : F + 4, 0].max(axis=1)
+    force = mass * _max_corner_force(ends.extrema)
+    maxima, changed_maxima = (
+        np.array([_max_corner_rise(extrema), _max_corner_force(extrema), _max_rotations(extrema, depth).max(axis=0)])
+        for extrema in (ends.extrema, changed_extrema)
+    )
+    counts, changed_counts = ends.final[:, CHANGES], changed_final[:, CHANGES]
+    sensitive = (np.abs(changed_maxima - maxima) > CHANGE_TOLERANCE * np.maximum(np.abs(maxima), np.abs(changed_maxima))).any(axis=0)
+    sensitive |= np.abs(changed_counts - counts) > COUNT_TOLERANCE * np.maximum(counts, changed_counts)
     lifts = ends.final[:, FIRST] > 0.0
     is_moving = linear_rise > ROUND_OFF * settlement
     return UpliftBatchResult(
@@ -187,7 +207,8 @@ def batch_result(
         lean_ratio=lean,
         within_model=lean <= MAX_LEAN_RATIO,
         rise_m=rise,
-        repeat_rise_m=_max_corner_rise(repeat_extrema),
+        changed_rise_m=_max_corner_rise(changed_extrema),
+        sensitive=sensitive,
         gave_up=np.zeros(len(settlement), dtype=np.bool_) if gave_up is None else gave_up,
     )
 
@@ -197,6 +218,11 @@ def _max_corner_rise(extrema: FloatArray) -> FloatArray:
     return highest
 
 
-def _max_abs(extrema: FloatArray) -> FloatArray:
-    """Return the largest absolute value of a state, (m,)."""
-    return np.maximum(extrema[:, 0], -extrema[:, 2]) + 0.0
+def _max_corner_force(extrema: FloatArray) -> FloatArray:
+    largest: FloatArray = extrema[:, F : F + 4, 0].max(axis=1)
+    return largest
+
+
+def _max_rotations(extrema: FloatArray, depth: FloatArray) -> FloatArray:
+    """Return the largest absolute rotations about x and y, (2, m), rad."""
+    return np.array([np.maximum(extrema[:, state, 0], -extrema[:, state, 2]) + 0.0 for state in (TURN_X, TURN_Y)]) / depth

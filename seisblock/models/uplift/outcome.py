@@ -14,14 +14,11 @@ from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.results import Event, LazySequence, Phase, make_phases
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.dynamics import EventLog, Trajectory
-from seisblock.models.uplift.batch_results import MAX_LEAN_RATIO, UpliftBatchResult
+from seisblock.models.uplift.batch_results import CHANGE_TOLERANCE, MAX_LEAN_RATIO, UpliftBatchResult
 from seisblock.models.uplift.constants import ALL_CORNERS, F, U
 from seisblock.models.uplift.model import contact_name
 from seisblock.models.uplift.modes import natural_modes
 from seisblock.records.motion import Motion
-
-REPEAT_TOLERANCE = 1e-3
-"""Relative difference of the maximum uplift between two integrations above which a warning is issued."""
 
 
 @dataclass(frozen=True)
@@ -185,7 +182,7 @@ def _corner_changes(changes: EventLog) -> tuple[IntArray, IntArray]:
 
 def warnings(motion: Motion, results: UpliftBatchResult, row: int) -> tuple[Message, ...]:
     """Return the warnings of one run."""
-    lean, rise, repeat_rise = (float(column[row]) for column in (results.lean_ratio, results.rise_m, results.repeat_rise_m))
+    lean = float(results.lean_ratio[row])
     messages = []
     if motion.record is not None and motion.record.vertical is None:
         messages.append(lazy_gettext("no vertical component in the record: vertical motion set to zero"))
@@ -207,19 +204,29 @@ def warnings(motion: Motion, results: UpliftBatchResult, row: int) -> tuple[Mess
                 small=MAX_LEAN_RATIO,
             )
         )
-    if lean > MAX_LEAN_RATIO and abs(rise - repeat_rise) > REPEAT_TOLERANCE * max(abs(rise), abs(repeat_rise)):
+    if not results.sensitive[row]:
+        return tuple(messages)
+    rise, changed_rise = float(results.rise_m[row]), float(results.changed_rise_m[row])
+    if lean > MAX_LEAN_RATIO:
         messages.append(
             lazy_gettext(
-                "after many contact changes the motion is determined by round-off, not by the record: only its beginning is reliable"
+                "sensitive: after many contact changes the motion depends on changes of the record by 2e-9: only its beginning is reliable"
             )
         )
-    elif abs(rise - repeat_rise) > REPEAT_TOLERANCE * max(abs(rise), abs(repeat_rise)):
+    elif abs(rise - changed_rise) > CHANGE_TOLERANCE * max(abs(rise), abs(changed_rise)):
         messages.append(
             lazy_gettext(
-                "maximum uplift {first:.4g} or {second:.4g} mm, depending on round-off: after many contact changes the motion is not "
-                "determined by the record; only its beginning and the order of magnitude are reliable",
+                "sensitive: maximum uplift {first:.4g} mm, or {second:.4g} mm if the record changes by 2e-9: after many contact changes "
+                "only the beginning of the motion and the order of magnitude are reliable",
                 first=rise * 1e3,
-                second=repeat_rise * 1e3,
+                second=changed_rise * 1e3,
+            )
+        )
+    else:
+        messages.append(
+            lazy_gettext(
+                "sensitive: contact forces, rotation or number of contact changes depend on changes of the record by 2e-9, the maximum "
+                "uplift does not"
             )
         )
     return tuple(messages)

@@ -11,9 +11,9 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Response, Status
 from seisblock.dynamics import Trajectory, integrate
-from seisblock.models.uplift.batch_results import batch_result, end_states
+from seisblock.models.uplift.batch_results import CHANGE_FACTOR, batch_result, end_states
 from seisblock.models.uplift.constants import ALL_CORNERS, FIRST, GLUED, F, U, X, Y
-from seisblock.models.uplift.model import UPLIFT, parameters, rotations, static_state, with_round_off
+from seisblock.models.uplift.model import UPLIFT, parameters, rotations, static_state
 from seisblock.models.uplift.options import UpliftOptions
 from seisblock.models.uplift.outcome import UpliftOutcome, build_outcome, events, phases, warnings
 from seisblock.records._validation import validate_inputs, vertical_gain
@@ -62,12 +62,13 @@ def solve_uplift(body: SpringBlock, motion: Motion, options: UpliftOptions) -> R
     p, start = parameters([body], gravity, motion.dt)[0], static_state(body, gravity)
     trajectory = integrate(UPLIFT, motion, p, start, ALL_CORNERS, gains=gains)
     linear = repeat = trajectory
-    # the same run with other round-off shows whether round-off decides the result
     if trajectory.final[FIRST] > 0.0:
-        # without uplift the run is the linear one, in which round-off does not grow
+        # without uplift the run is the linear one, in which changes do not grow
         linear = integrate(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
-        repeat = integrate(UPLIFT, motion, with_round_off(p), start, ALL_CORNERS, gains=gains, keep_path=False, keep_events=False)
-    results = batch_result([body], end_states(trajectory), linear.extrema[np.newaxis], repeat.extrema[np.newaxis], gravity)
+        along, across, up = (CHANGE_FACTOR * gain for gain in gains)
+        repeat = integrate(UPLIFT, motion, p, start, ALL_CORNERS, gains=(along, across, up), keep_path=False, keep_events=False)
+    changed = repeat.extrema[np.newaxis], repeat.final[np.newaxis]
+    results = batch_result([body], end_states(trajectory), linear.extrema[np.newaxis], *changed, gravity)
     return Response(
         model="uplift",
         outcome=build_outcome(body, motion, trajectory, results),
