@@ -384,9 +384,11 @@ def unpack(blob: RawFile, options: ReadOptions) -> tuple[list[RawFile], tuple[Ra
     records = [member for member in records if not _is_derived(member)] or records
     if not records:
         for member in members:
-            # a waveform format of ObsPy is left out for want of a unit: its own error says so
+            # a waveform format of ObsPy that states its unit, or its error about the missing one
             with suppress(RecordFormatError):
                 find_format(FALLBACK).parse(member)
+                records.append(member)
+    if not records:
         message = "{name}: no record found in this archive (contents: {held}); expected {formats}, or a plain table"
         contents = [member.basename for member in members[:8]] or lazy_gettext("plots only")
         raise RecordFormatError(message, name=blob.name, held=contents, formats=format_titles())

@@ -10,7 +10,6 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core.errors import KindError, UnitError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.readers.assemble import assemble
 from seisblock.readers.event import apply_event, load_event
 from seisblock.readers.response import ACCELERATION, VELOCITY, Inventories, Quantity
@@ -18,6 +17,7 @@ from seisblock.readers.waveforms import (
     ACCELEROMETERS,
     SEISMOMETERS,
     WaveformOptions,
+    evt_quantity,
     instrument_letter,
     is_counts,
     processed_counts_error,
@@ -88,10 +88,7 @@ def _to_part(trace: Any, options: WaveformOptions) -> Record:
     part = trace_to_record("ObsPy stream", trace, "STREAM", options, physical=physical)
     if physical is not None and ("remove_sensitivity" in _processing(trace) or "knet" in trace.stats):
         # a factor leaves the offset of the instrument
-        part = replace(part, metadata={**part.metadata, "carries_offset": True})
-    if physical is not None and physical.factor != 1.0:
-        entry = lazy_gettext("{channel}: calibration factor {factor:g} of the file applied", channel=trace.id, factor=physical.factor)
-        part = replace(part, history=(entry, *part.history))
+        return replace(part, metadata={**part.metadata, "carries_offset": True})
     return part
 
 
@@ -119,6 +116,8 @@ def _processed_quantity(trace: Any) -> Quantity | None:
     unit = _plugin_unit(trace)
     if unit == "m/s2":
         return Quantity(ACCELERATION, 1.0)
+    if "kinemetrics_evt" in trace.stats:
+        return evt_quantity(trace)
     has_response = getattr(trace.stats, "response", None) is not None
     is_accelerometer = not letter or letter in ACCELEROMETERS
     if trace.data.dtype.kind != "f" or not trace.data.size or has_response or not is_accelerometer:

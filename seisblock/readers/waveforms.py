@@ -176,6 +176,8 @@ def trace_to_record(
     """
     stats = trace.stats
     _check_samples(name, trace)
+    if physical is None and options.units is None and not options.inventory.is_requested:
+        physical = evt_quantity(trace)
     channel = None if physical else _find_channel(trace, options.inventory)
     if channel is None and not physical and options.inventory.is_requested and options.units is None:
         message = "{name}: channel {channel} is not in the StationXML; give the StationXML of this station"
@@ -189,6 +191,8 @@ def trace_to_record(
     if direction.sign < 0:
         values = -values
     start = stats.starttime.datetime.replace(tzinfo=UTC) if stats.starttime.timestamp else None
+    # a factor leaves the offset of the instrument
+    has_offset = physical.factor != 1.0 if physical else channel is not None and options.response == "sensitivity"
     metadata = {
         "unit": conversion.unit,
         "channel": trace.id,
@@ -196,7 +200,7 @@ def trace_to_record(
         "location": stats.location,
         "sensor": f"{stats.location}.{stats.channel[:2]}" if instrument_letter(stats.channel) else "",
         "channels": {direction.code: stats.channel} if stats.channel else None,
-        "carries_offset": True if channel is not None and options.response == "sensitivity" else None,
+        "carries_offset": has_offset or None,
         "proved": (*conversion.proved, *(("sign",) if has_orientation else ())),
         **({} if channel is None or not (channel.latitude or channel.longitude) else _site(channel)),
     }
@@ -302,6 +306,9 @@ def _convert_without_response(name: str, trace: Any, waveform: str, options: Wav
     if physical:
         unit = "m/s2" if physical.factor == 1.0 else ""
         values *= physical.factor
+        if physical.factor != 1.0:
+            message = "{channel}: calibration factor {factor:g} of the file applied"
+            history = (lazy_gettext(message, channel=trace.id, factor=physical.factor),)
     elif options.units is None:
         raise _missing_unit_error(name, trace, waveform, is_integer=is_integer)
     elif quantity_name == VELOCITY:
@@ -325,8 +332,27 @@ def _convert_without_response(name: str, trace: Any, waveform: str, options: Wav
     if quantity_name == VELOCITY:
         values, entry = differentiate(values, float(stats.delta), trace.id)
         history = (*history, entry)
-    proved = ("instrument",) if instrument_letter(stats.channel) in tuple(ACCELEROMETERS) else ()
+    has_factor = physical is not None and physical.factor != 1.0
+    proved = (*(("unit",) if has_factor else ()), *(("instrument",) if instrument_letter(stats.channel) in tuple(ACCELEROMETERS) else ()))
     return Conversion(values, history, flags, unit, proved)
+
+
+_EVT_ACCELEROMETERS = frozenset({1, *range(10, 17), 20, 32, 39})
+"""Sensor types in the header of Kinemetrics recorders that are accelerometers: unnamed ones, FBA, EpiSensor, CMG-5."""
+
+
+def evt_quantity(trace: Any) -> Quantity | None:
+    """Return the quantity of an accelerometer in a file of a Kinemetrics recorder (K2, Etna), None for other traces.
+
+    The calibration factor of ObsPy, from range and sensitivity in the header, gives m/s^2. It is 1 if it was applied already, or stays in
+    the trace: the largest and smallest count in the header tell counts from accelerations.
+    """
+    header = trace.stats.get("kinemetrics_evt")
+    if header is None or header.chan_sensortype not in _EVT_ACCELEROMETERS:
+        return None
+    calib = float(trace.stats.calib)
+    has_counts = is_counts(trace.data) or np.ptp(trace.data) > calib**0.5 * (header.maxpeak - header.minpeak)
+    return Quantity(ACCELERATION, calib if has_counts else 1.0)
 
 
 def _missing_unit_error(name: str, trace: Any, waveform: str, *, is_integer: bool) -> UnitError:

@@ -6,6 +6,7 @@ import io
 import json
 import zipfile
 from datetime import UTC, datetime
+from pathlib import Path
 
 import numpy as np
 import obspy
@@ -515,3 +516,29 @@ def test_seed_id_names_network_station_location_and_channels(metadata, name):
     record = Record([Component(code, np.arange(3.0)) for code in codes], DT, station="MIKB", metadata=metadata)
     assert record.seed_id == name
     assert get_site(record).label == (name or "MIKB")
+
+
+@pytest.mark.parametrize("name", ["BI008_MEMA-04823.evt", "BX456_MOLA-02351.evt", "STNA.20020722.044649.evt.gz"])
+def test_counts_of_kinemetrics_recorders_are_accelerations_by_their_header(name):
+    """The file was refused without `units`, and its stream was taken in m/s^2, count for count: 41 420 m/s^2."""
+    path = Path(obspy.__file__).parent / "io" / "kinemetrics" / "tests" / "data" / name
+    if not path.exists():
+        pytest.skip("ObsPy without its test data")
+    stream = obspy.read(path)
+    expected = [trace.data * trace.stats.calib for trace in obspy.read(path)]
+    calibrated, filtered = obspy.read(path, apply_calib=True), obspy.read(path).detrend("demean")
+    for record in (read(path), Record.from_obspy(stream), Record.from_obspy(calibrated)):
+        for component, values in zip(record.components, expected, strict=True):
+            np.testing.assert_allclose(component.acceleration, values, rtol=1e-12)
+    assert (record.start, record.dt) == (stream[0].stats.starttime.datetime.replace(tzinfo=UTC), stream[0].stats.delta)
+    assert read(path).carries_offset and "calibration factor 1.1" in read(path).history[0]
+    peaks = [np.abs(values - values.mean()).max() for values in expected]
+    assert [np.abs(c.acceleration).max() for c in Record.from_obspy(filtered).components] == pytest.approx(peaks)
+
+
+def test_seismometer_on_a_kinemetrics_recorder_is_no_accelerometer():
+    """Its calibration factor gives no acceleration: a unit is required, as for other counts."""
+    stream = obspy.Stream([obspy.Trace(np.arange(100.0), header={"station": "ABC", "channel": "0", "calib": 1e-6})])
+    stream[0].stats.kinemetrics_evt = obspy.core.AttribDict(chan_sensortype=38, maxpeak=99, minpeak=0)
+    with pytest.raises(UnitError):
+        Record.from_obspy(stream)

@@ -157,7 +157,14 @@ def _integrate(
     try:
         return attempt(params)
     except SolverError:
+        pass
+    try:
         return attempt(replace(params, sets_flat=True))
+    except SolverError as error:
+        # rebounds of lively slender bodies follow each other too fast
+        if params.restitution == 0.0:
+            raise
+        raise SolverError("{reason}; use a smaller `restitution`", reason=error.message) from error
 
 
 def are_rest(modes: IntArray) -> BoolArray:

@@ -16,7 +16,8 @@ from seisblock.models.respond.describe import describe
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.run import run
 from seisblock.models.respond.solve import respond_params
-from seisblock.records import Motion
+from seisblock.readers import read
+from seisblock.records import Motion, motion_of
 from tests.models.respond.cases import SLENDER, at_lean, sequence, shaking, solve_case, still_ground
 
 
@@ -139,6 +140,14 @@ def test_hops_kept_up_by_friction_end(block, options, motion):
     assert rows.impacts[1] == outcome.impacts
     assert rows.final_displacement_m[1] == outcome.final_displacement_m
     assert rows.final_displacement_m[[0, 2]].tolist() == alone.final_displacement_m.tolist() * 2
+
+
+def test_lively_slender_block_without_result_is_told_to_use_less_restitution():
+    """The error named no remedy; with a restitution smaller by 0.1 the run ends."""
+    block, motion = Block(0.1, 1.2), motion_of(read("synthetic_jma.csv"), "NS")
+    with pytest.raises(SolverError, match="too many mode changes; use a smaller `restitution`"):
+        solve_respond(block, motion, mu=0.5, restitution=0.99)
+    assert solve_respond(block, motion, mu=0.5, restitution=0.89).outcome.overturned
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3, 4])
