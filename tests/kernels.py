@@ -9,11 +9,18 @@ from seisblock._jit import LazyKernel
 from seisblock.dynamics import hybrid
 from seisblock.dynamics.ensemble import Observer
 from seisblock.dynamics.model import Model
+from seisblock.models.stack.chamfered_box import edge_edge_chamfered, separating_axis_chamfered
+from seisblock.models.stack.chamfered_faces import face_manifold_chamfered
+from seisblock.models.stack.face_overlap import face_overlap_points
+from seisblock.models.stack.hulls import shape_kernels
 
 KERNEL_PACKAGES = ("seisblock.dynamics", "seisblock.models.respond", "seisblock.models.jump", "seisblock.models.stack")
 KERNEL_PACKAGES += ("seisblock.models.rigid3d", "seisblock.models.slide", "seisblock.models.rock", "seisblock.models.uplift")
 KERNEL_PACKAGES += ("seisblock.measures", "seisblock.records")
 """Packages with kernels, in an order that gives two workers equal shares."""
+
+SHAPE_KERNELS = (separating_axis_chamfered, edge_edge_chamfered, face_manifold_chamfered, face_overlap_points)
+"""Kernels that a pile holds as pointers."""
 
 
 def modules_of(package: str) -> Iterator[ModuleType]:
@@ -44,9 +51,12 @@ def passed_by_pointer(package: str) -> dict[int, tuple[Model | Observer, tuple[o
 def compile_all(*, share: int = 0, of: int = 1) -> None:
     """Compile what Python calls or passes by pointer, or one share of so many, into the cache; cached kernels are loaded."""
     by_pointer = {id(kernel) for name in KERNEL_PACKAGES for _, kernels in passed_by_pointer(name).values() for kernel in kernels}
+    by_pointer |= set(map(id, SHAPE_KERNELS))
     for name in KERNEL_PACKAGES[share::of]:
         for value, _ in passed_by_pointer(name).values():
             _ = value.pointers if isinstance(value, Model) else value.pointer
+        if name == "seisblock.models.stack":
+            shape_kernels(has_worn=True, has_round=True)
         kernels = all_kernels(name)
         calls = by_pointer.union({id(hybrid.advance)}, *map(callees, kernels))
         for kernel in kernels:

@@ -205,6 +205,29 @@ def test_kernel_by_pointer_is_compiled_without_its_call_from_python(chain, monke
     assert fall._compiled is None
 
 
+def test_kernel_by_pointer_that_is_never_called_is_not_compiled(chain):
+    """A pile of sharp boxes holds pointers to the kernels of worn and of round stones."""
+    _, _, fall = chain
+    pointer = _jit.function_pointer(fall, SIGNATURE, is_called=False)
+    choose = numba.njit(_t.float64(_t.FunctionType(SIGNATURE), _t.boolean))(
+        lambda function, is_called: function(1.0, 2.0) if is_called else -1.0
+    )
+    assert choose(pointer, False) == -1.0
+    assert fall._compiled is None and fall._exported is None
+
+
+def test_pile_of_sharp_boxes_compiles_no_kernel_of_other_shapes():
+    """These are a sixth of the kernels of a pile."""
+    script = """
+from seisblock.bodies.pile.toml import load_pile
+from seisblock.models.stack.arrays import pile_arrays
+from tests.kernels import SHAPE_KERNELS
+_ = pile_arrays(load_pile("wagata"), None, 2).layout
+assert [kernel._exported for kernel in SHAPE_KERNELS] == [None] * 4
+"""
+    subprocess.run([sys.executable, "-c", script], check=True, timeout=300)
+
+
 def test_kernels_load_no_blas_and_leave_it_to_other_code():
     """A kernel runs without ``scipy.linalg``; a product of matrices compiled by the user afterwards finds it."""
     script = """

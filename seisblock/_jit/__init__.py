@@ -108,10 +108,10 @@ def _internals() -> Any:
     return None
 
 
-def function_pointer(function: Function, signature: Any) -> Function:
-    """Return a kernel as a function pointer of one signature, or the function itself if kernels are not compiled."""
+def function_pointer(function: Function, signature: Any, *, is_called: bool = True) -> Function:
+    """Return a kernel as a function pointer of one signature, compiled if it is called; or the function itself without the JIT."""
     if not ENABLED:
         return function
     from seisblock._jit.pointers import FunctionPointer
 
-    return FunctionPointer(function, signature)  # type: ignore[return-value]
+    return FunctionPointer(function, signature, is_called)  # type: ignore[return-value]

@@ -19,7 +19,8 @@ from seisblock.models.stack.buffers import PileLayout, PileMemory
 from seisblock.models.stack.constraint_assembly import CONTACT_ID_COLUMNS, STEP_INFO_COLUMNS
 from seisblock.models.stack.constraint_row import ROW_COLUMNS, VELOCITY_COLUMNS
 from seisblock.models.stack.frames import BODY, BOX, BOX_CENTRE, INERTIA, INERTIA_COLUMNS, INVERSE, MASS, Q, R, X
-from seisblock.models.stack.hulls import MAX_CORNERS, WearDepths, build_hulls
+from seisblock.models.stack.hull_pairs import SHARP_CORNERS
+from seisblock.models.stack.hulls import MAX_CORNERS, WearDepths, build_hulls, shape_kernels
 from seisblock.models.stack.newton import WORK_COLUMNS
 from seisblock.models.stack.sleeping import SUPPORT_COLUMNS
 from seisblock.models.stack.spring_contact import FRICTION, KINETIC, SLOT
@@ -87,8 +88,9 @@ class PileArrays:
 
     @property
     def layout(self) -> PileLayout:
-        """Constant arrays in the order the kernels take them."""
-        return PileLayout(*(getattr(self, name) for name in PileLayout._fields))
+        """Constant arrays, in the order in which the kernels take them, and kernels for the shapes of the stones."""
+        shapes = shape_kernels(has_worn=bool((self.counts > SHARP_CORNERS).any()), has_round=bool(self.rims.any()))
+        return PileLayout(**{name: getattr(self, name) for name in PileLayout._fields if name != "shapes"}, shapes=shapes)
 
     def memory(self) -> PileMemory:
         """Return zeroed contact memory of the right shapes."""

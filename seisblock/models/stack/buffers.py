@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from seisblock._jit import types
 from seisblock.core.typing import FloatArray, IntArray
@@ -11,8 +12,31 @@ from seisblock.dynamics.array_types import ARRAY_4D, BLOCK, INTEGER_BLOCK, INTEG
 _t = types()
 
 
+class ShapeKernels(NamedTuple):
+    """Pointers to the kernels for contacts of worn boxes and of cylinders: piles without such stones do not compile them.
+
+    Parameters
+    ----------
+    separating_axis, edge_edge, face_manifold : callable
+        Of worn boxes: :mod:`seisblock.models.stack.chamfered_box` and :mod:`seisblock.models.stack.chamfered_faces`.
+    face_overlap : callable
+        Of cylinders: :mod:`seisblock.models.stack.face_overlap`.
+    """
+
+    separating_axis: Callable[..., Any]
+    edge_edge: Callable[..., Any]
+    face_manifold: Callable[..., Any]
+    face_overlap: Callable[..., Any]
+
+
+SEPARATING_AXIS_KERNEL = _t.float64(VECTOR, _t.int64, _t.int64, _t.float64, BLOCK, INTEGERS, MATRIX, VECTOR)
+EDGE_EDGE_KERNEL = _t.boolean(VECTOR, _t.int64, _t.int64, BLOCK, INTEGERS, VECTOR, MATRIX, VECTOR)
+FACE_MANIFOLD_KERNEL = _t.int64(VECTOR, _t.int64, _t.int64, BLOCK, INTEGERS, VECTOR, MATRIX, _t.float64, MATRIX, MATRIX)
+FACE_OVERLAP_KERNEL = _t.int64(_t.int64, _t.int64, VECTOR, BLOCK, MATRIX, BLOCK, VECTOR, MATRIX, MATRIX)
+
+
 class PileLayout(NamedTuple):
-    """Constant arrays of a pile; columns are documented at the constants that name them.
+    """Constant arrays of a pile, and kernels for its shapes; columns are documented at the constants that name them.
 
     Parameters
     ----------
@@ -30,6 +54,7 @@ class PileLayout(NamedTuple):
         its upper face, and of its sides where these faces are worn; zero where there is none.
     inertias : (m, 19) array
         Masses, inertia matrices and their inverses.
+    shapes : ShapeKernels
     """
 
     joints: IntArray
@@ -45,6 +70,7 @@ class PileLayout(NamedTuple):
     cores: FloatArray
     rims: FloatArray
     inertias: FloatArray
+    shapes: ShapeKernels
 
 
 class PileMemory(NamedTuple):
@@ -177,6 +203,13 @@ LAYOUT = _t.NamedTuple(
         MATRIX,
         BLOCK,
         MATRIX,
+        _t.NamedTuple(
+            tuple(
+                _t.FunctionType(signature)
+                for signature in (SEPARATING_AXIS_KERNEL, EDGE_EDGE_KERNEL, FACE_MANIFOLD_KERNEL, FACE_OVERLAP_KERNEL)
+            ),
+            ShapeKernels,
+        ),
     ),
     PileLayout,
 )

@@ -15,7 +15,7 @@ import math
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import MATRIX, VECTOR
 from seisblock.models.stack.box_box import AXIS_BIAS, CARRIER_FACES, EDGE_EDGE, FACE_AXIS, FACE_MARGIN, KIND, PARALLEL_TOLERANCE
-from seisblock.models.stack.buffers import LAYOUT
+from seisblock.models.stack.buffers import EDGE_EDGE_KERNEL, SEPARATING_AXIS_KERNEL
 from seisblock.models.stack.mesh_topology import MAX_EDGES, OFFSET, PLANE, RING_SIZE, edge_topology, plane_distance, to_partner_axes
 from seisblock.models.stack.spring_contact import REL_D
 
@@ -99,8 +99,8 @@ def _transform_edges(count, partner_hull, n_partner, carrier_hull):
         row[EDGE_CODE + j % 2] = start | face_a << 4 | face_b << 8
 
 
-@kernel(_t.float64(VECTOR, _t.int64, _t.int64, _t.float64, LAYOUT, MATRIX, VECTOR))
-def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
+@kernel(SEPARATING_AXIS_KERNEL)
+def separating_axis_chamfered(rel, c, p, cutoff, corners, counts, carrier_hull, axis):
     """Return the widest gap between two boxes, m, negative where they overlap, and write the separating axis.
 
     Parameters
@@ -111,13 +111,15 @@ def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
         Carrier and partner.
     cutoff : float, m
         Gap along a face normal beyond which no other axis needs a test.
+    corners, counts : (b, 16, 7), (b,) arrays
+        Of all boxes, see :class:`seisblock.models.stack.buffers.PileLayout`.
     carrier_hull : (16, 18) array
         Scratch.
     axis : (8,) array
         Result: normal out of the partner, in its axes, and kind; then the same for the best face axis.
     """
-    partner_hull, count, n_partner = pile.corners[p], pile.counts[c], pile.counts[p]
-    _transform_hull(rel, pile.corners[c], count, carrier_hull)
+    partner_hull, count, n_partner = corners[p], counts[c], counts[p]
+    _transform_hull(rel, corners[c], count, carrier_hull)
     max_gap = -math.inf
     # a box with c corners has c - 2 faces, all quadrilaterals (Euler's formula)
     for f in range(n_partner - 2):
@@ -186,18 +188,18 @@ def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
     return max_gap
 
 
-@kernel(_t.boolean(VECTOR, _t.int64, _t.int64, LAYOUT, VECTOR, MATRIX, VECTOR))
-def edge_edge_chamfered(rel, c, p, pile, axis, ends, y):
+@kernel(EDGE_EDGE_KERNEL)
+def edge_edge_chamfered(rel, c, p, corners, counts, axis, ends, y):
     """Write the point of the carrier's edge nearest to the partner's, in the partner's axes; return whether the edges cross."""
     edge = int(axis[KIND]) - EDGE_EDGE
-    p_start, p_end, _, _ = edge_topology(edge // MAX_EDGES, pile.counts[p])
-    c_start, c_end, _, _ = edge_topology(edge % MAX_EDGES, pile.counts[c])
-    to_partner_axes(rel, pile.corners[c, c_start], ends[0])
-    to_partner_axes(rel, pile.corners[c, c_end], ends[1])
+    p_start, p_end, _, _ = edge_topology(edge // MAX_EDGES, counts[p])
+    c_start, c_end, _, _ = edge_topology(edge % MAX_EDGES, counts[c])
+    to_partner_axes(rel, corners[c, c_start], ends[0])
+    to_partner_axes(rel, corners[c, c_end], ends[1])
     ee, eg, gg, re, rg = 0.0, 0.0, 0.0, 0.0, 0.0
     for k in range(3):
-        e, g = pile.corners[p, p_end, k] - pile.corners[p, p_start, k], ends[1, k] - ends[0, k]
-        r = ends[0, k] - pile.corners[p, p_start, k]
+        e, g = corners[p, p_end, k] - corners[p, p_start, k], ends[1, k] - ends[0, k]
+        r = ends[0, k] - corners[p, p_start, k]
         ee += e * e
         eg += e * g
         gg += g * g

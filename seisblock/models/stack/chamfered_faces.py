@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.dynamics.array_types import BLOCK, INTEGERS, MATRIX, VECTOR
 from seisblock.models.stack.box_box import CARRIER_FACES, FACE_MARGIN, KIND
-from seisblock.models.stack.buffers import LAYOUT
+from seisblock.models.stack.buffers import FACE_MANIFOLD_KERNEL
 from seisblock.models.stack.mesh_topology import OFFSET, PLANE, RING_SIZE, face_corner, plane_distance, to_partner_axes
 
 _t = types()
@@ -75,16 +75,16 @@ def _clip_polygon(n, polygon, plane, result):
     return count
 
 
-@kernel(_t.void(VECTOR, _t.boolean, _t.int64, _t.int64, LAYOUT, VECTOR, VECTOR, MATRIX), inline=True)
-def _side_planes(rel, is_carrier, reference_box, face, pile, out, y, borders):
+@kernel(_t.void(VECTOR, _t.boolean, _t.int64, _t.int64, BLOCK, INTEGERS, VECTOR, VECTOR, MATRIX), inline=True)
+def _side_planes(rel, is_carrier, reference_box, face, corners, counts, out, y, borders):
     """Write the four clipping planes through the sides of a face, normal to it: outward normal, and offset plus a margin."""
-    count = pile.counts[reference_box]
+    count = counts[reference_box]
     for q in range(RING_SIZE):
         border = borders[q // 2, RING_SIZE * (q % 2) :]
         p0, p1, p2 = y, y[3:], y[6:]
-        _corner_position(rel, is_carrier, pile.corners[reference_box, face_corner(face, q, count)], p0)
-        _corner_position(rel, is_carrier, pile.corners[reference_box, face_corner(face, (q + 1) % RING_SIZE, count)], p1)
-        _corner_position(rel, is_carrier, pile.corners[reference_box, face_corner(face, (q + 2) % RING_SIZE, count)], p2)
+        _corner_position(rel, is_carrier, corners[reference_box, face_corner(face, q, count)], p0)
+        _corner_position(rel, is_carrier, corners[reference_box, face_corner(face, (q + 1) % RING_SIZE, count)], p1)
+        _corner_position(rel, is_carrier, corners[reference_box, face_corner(face, (q + 2) % RING_SIZE, count)], p2)
         a0, a1, a2 = p1[0] - p0[0], p1[1] - p0[1], p1[2] - p0[2]
         x, v, z = a1 * out[2] - a2 * out[1], a2 * out[0] - a0 * out[2], a0 * out[1] - a1 * out[0]
         # the third corner of the face decides which way is outwards
@@ -94,8 +94,8 @@ def _side_planes(rel, is_carrier, reference_box, face, pile, out, y, borders):
         border[OFFSET] = border[0] * p0[0] + border[1] * p0[1] + border[2] * p0[2] + FACE_MARGIN
 
 
-@kernel(_t.int64(VECTOR, _t.int64, _t.int64, LAYOUT, VECTOR, MATRIX, _t.float64, MATRIX, MATRIX))
-def face_manifold_chamfered(rel, c, p, pile, axis, work, max_gap, vertices, buffer):
+@kernel(FACE_MANIFOLD_KERNEL)
+def face_manifold_chamfered(rel, c, p, corners, counts, axis, work, max_gap, vertices, buffer):
     """Write the contact manifold of two faces and return its number of points.
 
     A bevel may be so flat that the stone lands on the next face within one step; corners of other faces above the reference face are
@@ -105,6 +105,8 @@ def face_manifold_chamfered(rel, c, p, pile, axis, work, max_gap, vertices, buff
     ----------
     rel : (18,) array
     c, p : int
+    corners, counts : (b, 16, 7), (b,) arrays
+        Of all boxes, see :class:`seisblock.models.stack.buffers.PileLayout`.
     axis : (4,) array
         Normal of the reference face, and kind.
     work : (3, 18) array
@@ -121,13 +123,13 @@ def face_manifold_chamfered(rel, c, p, pile, axis, work, max_gap, vertices, buff
     for k in range(3):
         out[k] = -axis[k] if is_carrier_face else axis[k]
         down[k] = -out[k]
-    _side_planes(rel, is_carrier_face, reference_box, face, pile, out, y, borders)
-    _corner_position(rel, is_carrier_face, pile.corners[reference_box, face_corner(face, 0, pile.counts[reference_box])], y)
+    _side_planes(rel, is_carrier_face, reference_box, face, corners, counts, out, y, borders)
+    _corner_position(rel, is_carrier_face, corners[reference_box, face_corner(face, 0, counts[reference_box])], y)
     level = out[0] * y[0] + out[1] * y[1] + out[2] * y[2]
-    count = pile.counts[incident_box]
-    incident_face = _incident_face(rel, not is_carrier_face, down, pile.corners[incident_box], count, y)
+    count = counts[incident_box]
+    incident_face = _incident_face(rel, not is_carrier_face, down, corners[incident_box], count, y)
     for q in range(RING_SIZE):
-        _corner_position(rel, not is_carrier_face, pile.corners[incident_box, face_corner(incident_face, q, count)], vertices[q])
+        _corner_position(rel, not is_carrier_face, corners[incident_box, face_corner(incident_face, q, count)], vertices[q])
     points = RING_SIZE
     # two clips per turn, so that the result ends in `vertices`
     for q in range(0, RING_SIZE, 2):
@@ -136,7 +138,7 @@ def face_manifold_chamfered(rel, c, p, pile, axis, work, max_gap, vertices, buff
     # corners of other faces above the reference face: a flat bevel may bring them down within the step
     for i in range(count):
         corner = vertices[points]
-        _corner_position(rel, not is_carrier_face, pile.corners[incident_box, i], corner)
+        _corner_position(rel, not is_carrier_face, corners[incident_box, i], corner)
         if out[0] * corner[0] + out[1] * corner[1] + out[2] * corner[2] - level > max_gap or points == MAX_CHAMFERED_POINTS - 2:
             continue
         is_over = True

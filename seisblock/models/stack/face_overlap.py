@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.dynamics.array_types import BLOCK, MATRIX, VECTOR
 from seisblock.models.stack.box_box import AXIS_BIAS, FACE_MARGIN
-from seisblock.models.stack.buffers import LAYOUT
+from seisblock.models.stack.buffers import FACE_OVERLAP_KERNEL
 from seisblock.models.stack.cylinder import RADIUS, lowest_rim_point
 from seisblock.models.stack.spring_contact import REL_D
 
@@ -31,13 +31,13 @@ ARC_COUNT, REFINEMENTS = 16, 4
 """Number of arcs of a rim that are searched for a crossing, and iterations that refine it."""
 
 
-@kernel(_t.void(_t.int64, _t.int64, LAYOUT, VECTOR), inline=True)
-def _outline(box, side, pile, plan):
+@kernel(_t.void(_t.int64, _t.int64, BLOCK, MATRIX, BLOCK, VECTOR), inline=True)
+def _outline(box, side, corners, boxes, rims, plan):
     """Write the outline of a stone's face: radius, or zero; half sides; height, m."""
-    plan[0] = pile.rims[box, side, RADIUS]
-    plan[1] = pile.corners[box, 4 * side + 2, 0]
-    plan[2] = pile.corners[box, 4 * side + 2, 1]
-    plan[3] = pile.boxes[box, 2] if side == 1 else -pile.boxes[box, 2]
+    plan[0] = rims[box, side, RADIUS]
+    plan[1] = corners[box, 4 * side + 2, 0]
+    plan[2] = corners[box, 4 * side + 2, 1]
+    plan[3] = boxes[box, 2] if side == 1 else -boxes[box, 2]
 
 
 @kernel(_t.boolean(_t.float64, _t.float64, VECTOR), inline=True)
@@ -238,8 +238,8 @@ def _side_rim_points(count, side, view, lower_face, upper_face, work, points):
     return count
 
 
-@kernel(_t.int64(_t.int64, _t.int64, VECTOR, LAYOUT, VECTOR, MATRIX, MATRIX))
-def face_overlap_points(c, p, rel, pile, axis, work, points):
+@kernel(FACE_OVERLAP_KERNEL)
+def face_overlap_points(c, p, rel, corners, boxes, rims, axis, work, points):
     """Write the contact manifold of two facing stones, at least one of them round; return its number of points.
 
     Parameters
@@ -247,6 +247,8 @@ def face_overlap_points(c, p, rel, pile, axis, work, points):
     c, p : int
         Carrier and partner.
     rel : (18,) array
+    corners, boxes, rims : (b, 16, 7), (b, 6), (b, 4, 2) arrays
+        Of all stones, see :class:`seisblock.models.stack.buffers.PileLayout`.
     axis : (10,) array
         Normal of the reference face out of the partner, in its axes, and 1 if the reference face is the carrier's; from column 4 on the
         fallback directions without a lean, of the carrier's rim (3) and of the partner's (3).
@@ -258,8 +260,8 @@ def face_overlap_points(c, p, rel, pile, axis, work, points):
     view, lower_face, upper_face, axes = work[0], work[1], work[2], work[3:15]
     side = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
     upper_side = -side if rel[8] > 0.0 else side
-    _outline(p, 1 if side > 0.0 else 0, pile, lower_face)
-    _outline(c, 1 if upper_side > 0.0 else 0, pile, upper_face)
+    _outline(p, 1 if side > 0.0 else 0, corners, boxes, rims, lower_face)
+    _outline(c, 1 if upper_side > 0.0 else 0, corners, boxes, rims, upper_face)
     gap = _face_gap(side, rel, lower_face, upper_face)
     for i in range(3):
         for j in range(3):

@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
 
+from seisblock._jit import function_pointer
 from seisblock.bodies.pile.pile import Pile
 from seisblock.core.typing import FloatArray, IntArray
+from seisblock.models.stack.buffers import (
+    EDGE_EDGE_KERNEL,
+    FACE_MANIFOLD_KERNEL,
+    FACE_OVERLAP_KERNEL,
+    SEPARATING_AXIS_KERNEL,
+    ShapeKernels,
+)
+from seisblock.models.stack.chamfered_box import edge_edge_chamfered, separating_axis_chamfered
+from seisblock.models.stack.chamfered_faces import face_manifold_chamfered
 from seisblock.models.stack.cylinder import RIMS
+from seisblock.models.stack.face_overlap import face_overlap_points
 from seisblock.models.stack.mesh_topology import PLANE
 from seisblock.models.stack.step import BOX_EDGES
 
@@ -62,6 +74,17 @@ def build_hulls(body: Pile, boxes: FloatArray, wear: WearDepths) -> tuple[FloatA
         edges[i] = [*_RINGS, *[(4 + a, 4 + b) for a, b in _RINGS], *zip(*posts, strict=True)]
         corners[i, : len(points) - 2, PLANE:] = _planes(points)
     return corners, counts, edges, cores, rims
+
+
+@cache
+def shape_kernels(*, has_worn: bool, has_round: bool) -> ShapeKernels:
+    """Return the contact kernels of worn boxes and of cylinders; those of shapes that a pile does not have are not compiled."""
+    return ShapeKernels(
+        function_pointer(separating_axis_chamfered, SEPARATING_AXIS_KERNEL, is_called=has_worn),
+        function_pointer(edge_edge_chamfered, EDGE_EDGE_KERNEL, is_called=has_worn),
+        function_pointer(face_manifold_chamfered, FACE_MANIFOLD_KERNEL, is_called=has_worn),
+        function_pointer(face_overlap_points, FACE_OVERLAP_KERNEL, is_called=has_round),
+    )
 
 
 def _planes(points: list[tuple[float, float, float]]) -> list[tuple[float, float, float, float]]:

@@ -22,7 +22,7 @@ from seisblock.models.stack.constraint_assembly import (
 )
 from seisblock.models.stack.constraint_row import GAP, IMPACT_SPEED, IMPULSE, IS_STANDING, NORMAL, RESTITUTION_RATIO
 from seisblock.models.stack.cylinder import HEIGHT, RADIUS, RIMS, faces_opposed, load_directions, lowest_rim_point, set_rim_contact
-from seisblock.models.stack.face_overlap import IS_LOWEST, MAX_SHARED_POINTS, POINT_NORMAL, face_overlap_points
+from seisblock.models.stack.face_overlap import IS_LOWEST, MAX_SHARED_POINTS, POINT_NORMAL
 from seisblock.models.stack.frames import relative_state
 from seisblock.models.stack.hull_pairs import bevel_touches, edges_cross, face_supports, faces_overlap, gap_between, max_contact_points
 from seisblock.models.stack.spring_contact import ACTIVE, CLAMP_TO_EDGE, OUTSIDE, POSITION, REL_D, RESTITUTION, SLOT
@@ -207,7 +207,7 @@ def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, pile, memory):
         scratch[20:],
     )
     load_directions(slots, rel, min(pile.boxes[c, 0], pile.boxes[p, 0]), axis[4:])
-    points = face_overlap_points(c, p, rel, pile, axis, scratch[4:19], candidates)
+    points = pile.shapes.face_overlap(c, p, rel, pile.corners, pile.boxes, pile.rims, axis, scratch[4:19], candidates)
     if points == 0:
         return -1
     if memory.pair_states[pair] == BOX_PAIR:
