@@ -19,6 +19,7 @@ from seisblock.__main__ import GC_THRESHOLD
 from seisblock.validation.case import Case, CaseResult
 from tests.computed_once import computing_once
 from tests.kernels import compile_all
+from tests.lengths import short_studies
 
 os.environ.setdefault("COLUMNS", "80")
 os.environ["NO_COLOR"] = "1"
@@ -133,4 +134,11 @@ def evidence(tmp_path_factory):
 def computed_once():
     """Compute what the tests of a file repeat once, such as the studies of a command in both languages."""
     with computing_once():
+        yield
+
+
+@pytest.fixture
+def few_runs():
+    """Take few records and few runs of each for `secure` and `scenario`, and few blocks for `fit`."""
+    with short_studies():
         yield

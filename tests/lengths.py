@@ -19,8 +19,10 @@ SCENARIOS = {
     "secure.FULL_RUNS": 40,
     "secure.QUICK_RUNS": 20,
     "secure.COARSE": 6,
+    "secure.RESOLUTION": 0.1,
+    "secure.INSET_RESOLUTION": 0.02,
 }
-"""A quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, and fewer runs of each."""
+"""A quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, fewer runs of each, and coarser measures."""
 
 FITS = {
     "importance_sampling.INITIAL_BLOCKS": 16,

@@ -12,6 +12,7 @@ from openpyxl import Workbook
 from PIL import Image
 
 from seisblock.samples import sample_path
+from tests.bodies.meshes import box, write_stl
 
 BROWSER = next((path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None)
 DRIVER = shutil.which("chromedriver")
@@ -175,11 +176,11 @@ def test_two_tabs_do_not_disturb_each_other(browser, address):
     assert float(find(browser, "probability").get_attribute("data-value")) > 0.9 and stocky == 0.0
 
 
-def test_record_of_300_s_shows_progress_is_cancelled_and_computed_again(browser, address):
+def test_record_of_100_s_shows_progress_is_cancelled_and_computed_again(browser, address):
     browser.get(address)
     element = find(browser, "motion-input")
-    element.send_keys("sine:300gal@1.5Hz,300s\t")
-    assert "300" in find(browser, "record-summary").text
+    element.send_keys("sine:300gal@1.5Hz,100s\t")
+    assert "100" in find(browser, "record-summary").text
     fill(browser, width="45", height="180", mu="0.3")
     find(browser, "run").click()
     assert find(browser, "progress").is_displayed()
@@ -254,16 +255,18 @@ def test_stations_of_an_archive_or_a_folder_are_mapped(browser, address, kind, t
     assert "1 station" in find(browser, "event-result").text
 
 
-def test_object_from_a_file_and_its_scan_is_computed(browser, address):
+def test_object_from_a_file_and_its_scan_is_computed(browser, address, tmp_path):
+    scan = write_stl(tmp_path / "slab.stl", *box(0.3, 0.4, 0.9))
+    subprocess.run([sys.executable, "-m", "seisblock", "body", scan, "--out", tmp_path / "slab.toml"], check=True)
     browser.get(address)
     find(browser, "motion-input").send_keys("pulse:500gal@1.5Hz\t")
     find(browser, "record-summary")
     Select(find(browser, "object-select")).select_by_value("file")
-    find(browser, "body-input").send_keys("\n".join(str(sample_path(name)) for name in ("boulder.toml", "boulder.ply")))
+    find(browser, "body-input").send_keys(f"{tmp_path / 'slab.toml'}\n{scan}")
     fill(browser, mu="0.6")
     find(browser, "run").click()
     assert find(browser, "probability").get_attribute("data-value")
-    assert "boulder" in browser.find_element("css selector", "body").text
+    assert "slab" in browser.find_element("css selector", "body").text
 
 
 def test_names_in_headers_and_files_run_no_script(browser, address, tmp_path):

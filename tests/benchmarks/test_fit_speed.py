@@ -39,7 +39,7 @@ def outcomes(count):
 def test_fit_of_sixty_long_records(benchmark):
     """Slenderness and size from sixty outcomes on 60 s records: at most 60 s of CPU time, with progress within the first second."""
     # without timing, fewer outcomes hold the same assertions
-    observations, progress = outcomes(15 if benchmark.disabled else OUTCOMES), []
+    observations, progress = outcomes(4 if benchmark.disabled else OUTCOMES), []
     fit_block(observations[:2], free=["alpha"], block=from_slenderness(0.2, 3.0), runs=1, folds=2)
     began = time.process_time()
 

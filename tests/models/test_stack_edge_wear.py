@@ -84,7 +84,8 @@ def test_worn_stones_leaning_on_drums_gain_no_energy(shape):
     low = PileStone("low", 0.315, 0.315, 0.077, shape="round", inset=inset)
     high = PileStone("high", 0.294, 0.294, 0.171, on="low", shape=shape, inset=inset)
     pile = Pile("two", (low, high), mu=1.2)
-    for seed in range(30):
+    # of 21 values the quantiles are values: the second largest, and the sixth
+    for seed in range(21):
         try:
             outcome = solve_stack(pile, noise(seed, 1.3, 30.0), step=1e-3).outcome
         except SolverError:

@@ -458,6 +458,7 @@ def test_find_measures_says_what_does_not_reach_the_target(security):
         assert "目標" in measure_note(replace(inset, reason="in English"))
 
 
+@pytest.mark.usefixtures("few_runs")
 @pytest.mark.parametrize("mass", [80.0, pytest.param(None, marks=pytest.mark.slow)])
 def test_find_measures_solves_no_restraint_of_a_safe_object(mass, monkeypatch):
     """It needs no force, as it needs no ballast; the demands on a restraint, a third of the time, are computed for unsafe ones only."""
@@ -472,6 +473,7 @@ def test_find_measures_solves_no_restraint_of_a_safe_object(mass, monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("few_runs")
 def test_find_measures_asks_no_change_of_an_object_that_meets_the_target(monkeypatch):
     """More runs put a case of 60 cm above its target: "no measure required", and a base of 60.9 cm."""
     monkeypatch.setattr("seisblock.studies.scenario.secure._Search.own_probability", lambda self: 0.05)

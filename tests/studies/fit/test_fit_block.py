@@ -75,6 +75,7 @@ def test_fit_is_reproducible_by_seed(experiment, slender):
 @pytest.mark.slow
 def test_fit_weight_equals_repeated_outcomes(experiment):
     """Each twice over, or with a weight of two, is the same evidence; with a weight of zero it is none."""
+    experiment = experiment[:24]
     twice = fit_block([*experiment, *experiment], free=["alpha"], **KNOWN, folds=4)
     double = fit_block([replace(observation, weight=2.0) for observation in experiment], free=["alpha"], **KNOWN, folds=4)
     assert double["alpha"].interval == twice["alpha"].interval
@@ -127,7 +128,7 @@ def test_fit_warns_of_correlated_parameters():
 def test_fit_of_random_outcomes_raises_lapse_rate():
     """Coins: no block explains them, the lapses grow, and nothing is foretold better than by the share."""
     rng = np.random.default_rng(0)
-    observations = [replace(item, happened=bool(rng.random() < 0.5)) for item in shaken(60, 3)]
+    observations = [replace(item, happened=bool(rng.random() < 0.5)) for item in shaken(30, 3)]
     fit = fit_block(observations, free=["alpha"], block=TRUTH, runs=4)
     assert fit["lapse"].median > 0.2
     assert fit.held_out.accuracy < 0.7
