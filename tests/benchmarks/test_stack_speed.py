@@ -163,9 +163,9 @@ def pagoda(storeys):
     return Pile("pagoda", tuple(stones), mu=0.5)
 
 
-def record_of_a_minute(pga, seconds=60.0):
-    """Return noise about 2.5 Hz under the envelope of an earthquake, at 100 Hz, along three axes."""
-    rng, time = np.random.default_rng(1), np.arange(0.0, seconds, 0.01)
+def record_of_a_minute(pga):
+    """Return noise about 2.5 Hz under the envelope of an earthquake, 60 s at 100 Hz, along three axes."""
+    rng, time = np.random.default_rng(1), np.arange(0.0, 60.0, 0.01)
     envelope, f = np.minimum(time / 5.0, 1.0) * np.exp(-np.maximum(time - 15.0, 0.0) / 12.0), np.fft.rfftfreq(len(time), 0.01)
     response = (f / 0.3) ** 2 / (1.0 + (f / 0.3) ** 2) / (1.0 - (f / 2.5) ** 2 + 1.2j * f / 2.5)
     rows = [envelope * np.fft.irfft(np.fft.rfft(rng.normal(size=len(time))) * response, len(time)) for _ in range(3)]
@@ -175,8 +175,10 @@ def record_of_a_minute(pga, seconds=60.0):
 @pytest.mark.parametrize(("pile", "pga"), [(pagoda(13), 4.0), (wall(0.5), 3.0)], ids=["pagoda of 13 storeys", "wall of 40"])
 @pytest.mark.slow
 def test_record_of_a_minute(pile, pga, benchmark):
-    """A record of 60 s takes at most 30 s, and every step is solved; where benchmarks are disabled, the strongest third of it."""
-    motion = record_of_a_minute(pga, 20.0 if benchmark.disabled else 60.0)
+    """A record of 60 s takes at most 30 s, and every step is solved; where benchmarks are disabled, its first 12 s."""
+    motion = record_of_a_minute(pga)
+    if benchmark.disabled:
+        motion = Motion(motion.acceleration[:, :1200], motion.dt)
     start = process_time()
     response = benchmark.pedantic(solve_stack, (pile, motion), rounds=1)
     assert not response.warnings

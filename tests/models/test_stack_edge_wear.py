@@ -84,7 +84,6 @@ def test_worn_stones_leaning_on_drums_gain_no_energy(shape):
     low = PileStone("low", 0.315, 0.315, 0.077, shape="round", inset=inset)
     high = PileStone("high", 0.294, 0.294, 0.171, on="low", shape=shape, inset=inset)
     pile = Pile("two", (low, high), mu=1.2)
-    # of 21 values the quantiles are values: the second largest, and the sixth
     for seed in range(21):
         try:
             outcome = solve_stack(pile, noise(seed, 1.3, 30.0), step=1e-3).outcome
@@ -93,8 +92,10 @@ def test_worn_stones_leaning_on_drums_gain_no_energy(shape):
             continue
         gained.append(created_energy(pile, outcome))
         leans.append(outcome.max_tilt_rad["high"])
-    assert np.quantile(gained, 0.95) < 1e-3
-    assert np.quantile(gained, 0.75) < 2e-4
+    # quantiles 0.95 and 0.75
+    second, sixth = np.sort(gained)[[-2, -6]]
+    assert second < 1e-3
+    assert sixth < 2e-4
     assert np.quantile(leans, 0.75) > 0.7
 
 
