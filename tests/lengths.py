@@ -22,7 +22,7 @@ SCENARIOS = {
     "secure.RESOLUTION": 0.1,
     "secure.INSET_RESOLUTION": 0.02,
 }
-"""A quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, fewer runs of each, and coarser measures."""
+"""A quarter of the records of a scenario, a fifth of those of a hazard, without the longest one, fewer runs, and coarser measures."""
 
 FITS = {
     "importance_sampling.INITIAL_BLOCKS": 16,
