@@ -244,6 +244,22 @@ def test_landing_corner_force_starts_at_dashpot_force():
         assert response.outcome.max_contact_force_n >= force
 
 
+def test_force_between_samples_after_slow_motion():
+    """The largest force of a burst after a slow wave is that of the same motion in finer steps: slopes raise the bound of a step."""
+    dt, finer = 0.01, 16
+    slow = 6.0 * np.sin(np.pi * np.arange(800) / 200.0) * np.sin(np.pi * np.arange(800) / 800.0) ** 2
+    body = SpringBlock.from_frequency(1.0, 1.0, 2.0, frequency_vertical=3.7, beta=0.5, damping=0.9)
+    for peak in np.arange(10.0, 30.0, 0.5):
+        up = np.concatenate([slow, [0.0, *peak * np.array([1.0, -1.0, 1.0, -1.0]), 0.0], np.zeros(50)])
+        times = np.arange(up.size) * dt
+        fine_times = np.linspace(0.0, times[-1], (up.size - 1) * finer + 1)
+        coarse, fine = (
+            uplift_many([body], Motion(np.array([0.0 * row, 0.0 * row, row]), step))
+            for row, step in ((up, dt), (np.interp(fine_times, times, up), dt / finer))
+        )
+        assert coarse.max_contact_force_n[0] == pytest.approx(fine.max_contact_force_n[0], rel=1e-9)
+
+
 def test_large_tilt_warns_beyond_model_validity():
     """Beyond a tenth of the slenderness the outcome states that the model is invalid and refers to rock (N16)."""
     response = solve_uplift(SLENDER, shaking(6.0, 0.01, peaks=(9.0, 9.0, 3.0)))
