@@ -6,6 +6,7 @@ import math
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from seisblock.core.io.csv_table import (
     TRUE_WORDS,
     UNKNOWN_WORDS,
     is_bare_number,
+    normalize_cell,
     normalize_heading,
     parse_heading,
     parse_length_cell,
@@ -457,10 +459,19 @@ def _with_ratio(values: dict[str, Any]) -> dict[str, Any]:
     return values
 
 
+def _find_file(cell: str) -> str:
+    """Return the file that a cell names: cells are in NFKC, and names of files may have full-width letters and brackets."""
+    path = Path(cell)
+    with suppress(OSError, ValueError):  # too long a name, no such folder
+        if path.suffix and not path.exists():
+            return next((str(entry) for entry in sorted(path.parent.iterdir()) if normalize_cell(entry.name) == path.name), cell)
+    return cell
+
+
 def _parse_value(key: str, cell: str, unit: str, *, stone: bool) -> Any:
     """Return the value of a cell, SI; None for an outcome marked as unknown."""
     if key == "body":
-        return read_body_toml(cell)
+        return read_body_toml(_find_file(cell))
     if key == "kind":
         return normalize_kind(cell)
     if key in TEXT_COLUMNS:

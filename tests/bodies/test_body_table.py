@@ -1,23 +1,32 @@
 """Lists of bodies as people keep them: spreadsheets in two languages, units where they like, and slips of the pen."""
 
+import shutil
+
 import pytest
 
+from seisblock.app.forms import scenario_object
 from seisblock.bodies.block import Block
 from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.factory import load_block
 from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.table import read_bodies
 from seisblock.core.errors import BodyError
 from seisblock.core.registry import get_solver
 from seisblock.core.units import SUN
+from seisblock.samples import sample_path
 from seisblock.studies.batch.task import build_solver_bodies
 from seisblock.studies.report.models import body_models
 
 
-def read_table(tmp_path, text, encoding="utf-8"):
-    """Return the bodies of a table."""
+def write_table(tmp_path, text, encoding="utf-8"):
     path = tmp_path / "bodies.csv"
     path.write_bytes(text.encode(encoding))
-    return {body.name: dict(body.parameters) for body in read_bodies(path)}
+    return path
+
+
+def read_table(tmp_path, text, encoding="utf-8"):
+    """Return the bodies of a table."""
+    return {body.name: dict(body.parameters) for body in read_bodies(write_table(tmp_path, text, encoding))}
 
 
 def test_body_table_accepts_units_in_headings_or_cells(tmp_path):
@@ -47,6 +56,17 @@ def test_comma_in_a_title_or_a_note_is_no_separator(tmp_path, separator):
     text = "Inventory, 2024\n" + "".join(f"{separator.join(row)}\n" for row in rows)
     expected = {"vase, blue": {"kind": "statue", "width": 0.12, "height": 0.4}}
     assert read_table(tmp_path, text) == read_table(tmp_path, f"sep={separator}\n{text}") == expected
+
+
+@pytest.mark.parametrize("name", ["展示台（大）.toml", "台２.toml", "台2.toml"])
+def test_file_of_a_body_may_have_full_width_letters(tmp_path, monkeypatch, name):
+    """Cells are normalised: the file was not found, nor was an upload of the app with a friction typed in under a JMA intensity."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(sample_path("bookcase.toml"), name)
+    (spec,) = read_bodies(write_table(tmp_path, f"name,body,mu\ncase,{name},0.3\n"))
+    assert spec.error is None and spec.description["name"] == load_block("bookcase").name
+    (app_spec,) = read_bodies(scenario_object(["--block", name, "--mu", "0.3"], tmp_path)[1])
+    assert (app_spec.error, dict(app_spec.parameters)) == (None, {"mu": 0.3})
 
 
 @pytest.mark.parametrize("heading", ["μ", "\u00b5", "摩擦係数 μ", "Friction coefficient"])

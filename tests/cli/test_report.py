@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.bodies.factory import load_block
+from seisblock.bodies.two_layer import load_contact
 from seisblock.cli import main
 from seisblock.core.i18n import use_locale
 from seisblock.measures import measure
@@ -67,6 +69,15 @@ def test_report_contents_link_to_every_section(pages):
     for page in pages.values():
         entries = re.findall(r'<li><a href="#([\w-]+)">(.*?)</a></li>', page)
         assert entries == re.findall(r'<h2 id="([\w-]+)">(.*?)</h2>', page) and len(entries) == 4
+
+
+def test_friction_given_to_a_report_acts_on_its_jump():
+    """`report --mu 0.7` answered the jump with the friction of the file, 0.18."""
+    own, given, kinetic = (body_models("chozusha", **values) for values in ({}, {"mu": 0.7}, {"mu_kinetic": 0.1}))
+    assert own.contact == load_contact("chozusha")
+    assert given.contact == replace(own.contact, mu=0.7, mu_kinetic=0.7)
+    assert kinetic.contact == replace(own.contact, mu_kinetic=0.1)
+    assert body_models("chozusha", mu=0.1).contact == replace(own.contact, mu=0.1, mu_kinetic=0.1)
 
 
 @pytest.fixture(scope="module")

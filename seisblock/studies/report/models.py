@@ -92,7 +92,8 @@ def body_models(
     0.72
     """
     sizes = _SIZE_PATTERN.match(text)
-    layers = own_contact = None
+    layers = None
+    contact_values: Mapping[str, float] = {}
     base: Mapping[str, float] = {}
     own_friction: tuple[float | None, float | None] = (None, None)
     name: str
@@ -109,18 +110,22 @@ def body_models(
         if table["kind"] == "two-layer":
             layers, contact_values = two_layer_from_table(table, side), contact_from_table(table)
             base = base_from_table(table)
-            own_contact = Contact(**contact_values) if "mu" in contact_values else None
         own_friction = table_friction(table, text)
     if mu is not None:
         block = block.without_ranges("mu")
     static = own_friction[0] if mu is None else mu
     kinetic = mu_kinetic if mu_kinetic is not None else (static if mu is not None or own_friction[1] is None else own_friction[1])
+    # the foot lands with the friction under the body
+    contact = None
+    if layers is not None and static is not None:
+        restitution = {key: value for key, value in contact_values.items() if key.startswith("restitution")}
+        contact = Contact(static, kinetic, **restitution)
     return BodyModels(
         name,
         block,
         own_restitution,
-        layers if own_contact else None,
-        own_contact,
+        layers if contact else None,
+        contact,
         _make_spring_block(block, frequency_vertical),
         static,
         kinetic,
