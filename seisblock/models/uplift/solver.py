@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from seisblock.bodies.factory import block_from_table
 from seisblock.bodies.from_spec import spec_values
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.bodies.spring_factory import spring_block
+from seisblock.bodies.spring_factory import spring_block, springs_from_table
 from seisblock.bodies.table import BodySpec
 from seisblock.core.errors import BodyError
 from seisblock.core.registry import RowResult, Solver, SolverBody, ValueMap, register
@@ -20,12 +20,15 @@ from seisblock.records._validation import vertical_gain
 
 
 def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
-    sizes = spec_values(spec, "width", "depth", "height", "mass")
-    if spec.description is not None:
-        block = block_from_table(spec.description, side=spec.parameters.get("side", "short"))
-        sizes = {"width": block.width, "depth": block.depth, "height": block.height, "mass": block.mass}
+    given = spec_values(spec, "width", "depth", "height", "mass", "frequency_vertical", "beta", "damping")
     try:
-        body = spring_block(**sizes, **spec_values(spec, "frequency_vertical", "beta", "damping"))
+        if spec.description is not None and spec.description.get("kind") == "springs":
+            body = springs_from_table(spec.description, **given)
+        else:
+            if spec.description is not None:
+                block = block_from_table(spec.description, side=spec.parameters.get("side", "short"))
+                given |= {"width": block.width, "depth": block.depth, "height": block.height, "mass": block.mass}
+            body = spring_block(**given)
     except BodyError as error:
         raise BodyError("{source}: {why}", source=spec.source, why=error.message) from error
     return SolverBody(spec.name, body, UpliftOptions(**values))

@@ -97,11 +97,12 @@ def test_batch_of_jump_uplift_and_stack_equals_commands(folder):
     for solver, body, single in (
         ("jump", "chozusha", "--block chozusha"),
         ("uplift", "u.csv", "--width 1 --height 2 --mass 900 --frequency-vertical 6 --damping 0.1"),
+        ("uplift", "machine", "--body machine"),
     ):
         (folder / "u.csv").write_text("name,width,height,mass,frequency_vertical,damping\nu,1,2,900,6,0.1\n")
-        assert run(f"batch strong.csv --bodies {body} --solver {solver} --out {solver}.csv").exit_code == 0
+        assert run(f"batch strong.csv --bodies {body} --solver {solver} --out of_{body}.csv").exit_code == 0
         results = document(f"{solver} strong.csv {single}")["results"]
-        rows = table(f"{solver}.csv")
+        rows = table(f"of_{body}.csv")
         assert len(rows) == 2
         for row in rows:
             result = next(item for item in results if item["component"] == row["component"])
