@@ -13,7 +13,7 @@ from seisblock.cli.option_checks import reject_with
 from seisblock.cli.options import Source
 from seisblock.cli.progress import progress
 from seisblock.core.errors import ParameterError
-from seisblock.core.i18n import Message, lazy_gettext
+from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.units import GAL, KINE
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def load_scenario(source: Source, params: Mapping[str, Any], *, seed: int) -> Sc
         label = lazy_gettext("{names}", names=names[:3]) if len(names) <= 3 else lazy_gettext("{count} records", count=len(names))
         if target is not None:
             label = lazy_gettext("{names}, scaled to {target}", names=label, target=target.label)
-        return ScenarioMotions(records, _on_floor(label, source.floor), (), target, False)
+        return ScenarioMotions(records, _on_floor(label, source.floor), (_variation_note(is_scaled=target is not None),), target, False)
     if target is None:
         raise ParameterError("scenario required: give --jma, --pga (with or without --pgv), --pgv or --sa, or a RECORD")
     reject_with(
@@ -108,10 +108,29 @@ def load_scenario(source: Source, params: Mapping[str, Any], *, seed: int) -> Sc
         records, notes = scenario_suite(target, params["records"] or DEFAULT_RECORDS, seed=seed)
         preparation = make_preparation(source, ())
         records = [preparation.apply(record) for record in records]
-    label = _on_floor(target.label, source.floor)
+    label, notes = _on_floor(target.label, source.floor), (*notes, _variation_note(is_scaled=True))
     if source.floor is not None:
         notes = (*notes, lazy_gettext("{scenario}: the intensity is that of the ground", scenario=label))
     return ScenarioMotions(records, label, notes, target, True)
+
+
+def _variation_note(*, is_scaled: bool) -> Message:
+    """Return what varies from run to run: under an intensity less than in ``respond``, whose probabilities are others."""
+    from seisblock.studies.sampling import ParameterVariation
+
+    variation = ParameterVariation()
+    values = {"size": 100 * variation.size, "amplitude": 100 * variation.amplitude, "azimuth": variation.azimuth_deg}
+    if is_scaled:
+        text = N_(
+            "runs vary the object (width and height ±{size:g} %, edges, friction, restitution), not the shaking; those of respond also "
+            "vary amplitude ±{amplitude:g} % and azimuth ±{azimuth:g}°"
+        )
+    else:
+        text = N_(
+            "runs vary the object (width and height ±{size:g} %, edges, friction, restitution) and the shaking (amplitude "
+            "±{amplitude:g} %, azimuth ±{azimuth:g}°), as those of respond"
+        )
+    return lazy_gettext(text, **values)
 
 
 def _on_floor(label: Message, floor: Storey | None) -> Message:
@@ -137,7 +156,7 @@ def load_hazard(path: Path, *, years: float, target: float, seed: int) -> tuple[
     with progress("generating the records"):
         records, frequencies, notes = hazard_suite(hazard, years=years, target=target, seed=seed)
     label = lazy_gettext("hazard {file}, {years:g} years", file=path.name, years=years)
-    return ScenarioMotions(records, label, notes, None, True), frequencies
+    return ScenarioMotions(records, label, (*notes, _variation_note(is_scaled=True)), None, True), frequencies
 
 
 def _scaled_records(source: Source, target: ScenarioTarget, scale: Any) -> list[Record]:

@@ -122,6 +122,15 @@ def test_secure_writes_document_and_rejects_scans():
     assert "measures require a block" in " ".join(run("secure", "--jma", "6-", "--block", "boulder", "--mu", "0.5").stderr.split())
 
 
+def test_scenario_states_what_varies_from_run_to_run(tmp_path):
+    """A width that met the target in `secure` had another probability in `respond`, and neither output told why."""
+    (tmp_path / "list.csv").write_text("name,width,height,mu\nshelf,0.3,0.4,0.3\n")
+    line = ("scenario", *SHORT, "--bodies", tmp_path / "list.csv", "--json")
+    scaled, unscaled = (json.loads(run(*line, *args).stdout)["notes"][0] for args in (("--jma", "5-"), ()))
+    assert scaled.startswith("runs vary the object") and "not the shaking; those of respond also vary amplitude ±10 %" in scaled
+    assert "and the shaking (amplitude ±10 %, azimuth ±10°), as those of respond" in unscaled
+
+
 @pytest.mark.slow
 @pytest.mark.usefixtures("few_runs")
 def test_measures_for_a_pile_are_said_to_be_those_of_one_block():
