@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -332,6 +333,11 @@ def parse_table(sheet: Sheet, *, stones: bool | None = None, is_list: bool = Fal
     """
     (header_line, header), rows = sheet.split_header(_COLUMNS)
     columns, units = _parse_header(header, sheet.source, header_line)
+    index = columns.index("count") if "count" in columns else None
+    if index is not None and normalize_heading(header[index]) == "number":
+        cells = [cells[index] for _, cells in rows if index < len(cells) and cells[index]]
+        if _are_running_numbers(cells):
+            columns[index] = "" if "name" in columns else "name"
     marks = [key for key in SURVEY_COLUMNS if not (is_list and key in AMBIGUOUS_COLUMNS)]
     lists_stones = (
         any(key in marks for key in columns) or any(word in cell for word in _SAO for cell in header) if stones is None else stones
@@ -425,6 +431,14 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
             units[name] = unit
         columns.append(name)
     return columns, units
+
+
+def _are_running_numbers(cells: Sequence[str]) -> bool:
+    """Return whether cells under ``number`` identify stones: consecutive numbers, or at least three in rising order; else they count."""
+    if not cells or not all(cell.isdecimal() for cell in cells):
+        return bool(cells) and any(any(letter.isalpha() for letter in cell) for cell in cells)
+    steps = [int(b) - int(a) for a, b in pairwise(cells)]
+    return set(steps) == {1} or (len(steps) > 1 and min(steps) > 0)
 
 
 def _require_known(columns: Sequence[str], header: Sequence[str], source: str, line: int, *, is_list: bool) -> None:

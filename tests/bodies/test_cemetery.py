@@ -24,6 +24,23 @@ SURVEY = """\
 """
 
 
+@pytest.mark.parametrize(
+    ("numbers", "stones", "names"),
+    [
+        (("1", "2", "3"), 3, ["1", "2", "3"]),
+        (("101", "105", "230"), 3, ["101", "105", "230"]),
+        (("A-1", "A-2", "B-1"), 3, ["A-1", "A-2", "B-1"]),
+        (("12", "4", "4"), 20, None),
+    ],
+)
+def test_numbers_of_stones_are_no_counts(numbers, stones, names):
+    """The sheet of the guide on Excel, number 1 to n, was read as 1 + 2 + ... + n stones, without a word."""
+    rows = "".join(f"{number},24,{height},{height > 60:d}\n" for number, height in zip(numbers, (60, 66, 72), strict=True))
+    cemetery = parse_cemetery(f"number,width (cm),height (cm),overturned\n{rows}")
+    assert cemetery.size == stones
+    assert names is None or [stone.name for stone in cemetery.stones] == names
+
+
 def test_cemetery_accepts_english_columns_with_ratio():
     """height_over_width is enough; the other columns are optional and unknown ones passed over."""
     cemetery = parse_cemetery("block,Height over width,fallen,count\nA,2.6,yes,\nB,3.1,0,4\n")
