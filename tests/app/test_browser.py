@@ -1,5 +1,6 @@
 """The local page in a headless Chromium."""
 
+import functools
 import json
 import shutil
 import subprocess
@@ -81,7 +82,9 @@ def fill(browser, **values):
         element.send_keys(value)
 
 
+@functools.cache
 def run_command(*arguments):
+    """Return the document of a command, run once."""
     result = subprocess.run([sys.executable, "-m", "seisblock", *arguments, "--json"], capture_output=True, text=True, check=True)
     return json.loads(result.stdout)
 

@@ -73,7 +73,7 @@ LINES = (
     ),
     ("risk", "--median", "60cm/s", "--beta", "0.4", "--hazard", "synthetic_hazard.csv", "--stood", "1000"),
     ("batch", "synthetic_jma.csv", HANMER, "--bodies", "gravestone", "--solver", "rock", "--force", "--out", "FOLDER/table.csv"),
-    ("report", "synthetic_jma.csv", "--output", "FOLDER/page.html"),
+    ("report", "synthetic_jma.csv", "--window", "25:28", "--output", "FOLDER/page.html"),
     ("fit", "shaken_block.csv", "--free", "alpha,p"),
     ("validate", "--quick"),
 )
