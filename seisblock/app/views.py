@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Callable, Mapping
 from dataclasses import fields
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -207,12 +208,16 @@ CHECK_LABELS = {"count": N_("sample count")}
 
 def _earthquake(record: Mapping[str, Any]) -> str:
     from seisblock.output.text.record_info import describe_earthquake
-    from seisblock.records.site import Earthquake
+    from seisblock.records.site import Earthquake, format_clock_time
 
     if not record["earthquake"]:
         return ""
     values = {key: value for key, value in record["earthquake"].items() if key != "origin_time"}
-    return describe_earthquake(Earthquake(None, **values), record["earthquake"]["origin_time"] or "", record["epicentral_distance_km"])
+    origin = record["earthquake"]["origin_time"]
+    # in the clock of the beginning of the record
+    clock = (record["local_start"] or "UTC").split()[-1]
+    time = format_clock_time(datetime.fromisoformat(origin), clock) if origin else ""
+    return describe_earthquake(Earthquake(None, **values), time, record["epicentral_distance_km"])
 
 
 def intensity_summary(tab: Tab) -> str:

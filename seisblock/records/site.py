@@ -194,9 +194,11 @@ def great_circle_km(start: tuple[float, float], end: tuple[float, float]) -> flo
 
 def format_local_time(record: Record, moment: datetime | None) -> str:
     """Return a time in the clock of the record's network, to the second, with the clock's name; may be empty."""
-    if moment is None:
-        return ""
-    clock = str(record.metadata.get("clock", "UTC"))
+    return "" if moment is None else format_clock_time(moment, str(record.metadata.get("clock", "UTC")))
+
+
+def format_clock_time(moment: datetime, clock: str) -> str:
+    """Return a UTC time in a clock, to the second, with its name (``JST``)."""
     # strftime truncates: half a second more rounds to the nearest second
     return f"{moment + UTC_OFFSETS.get(clock, timedelta(0)) + HALF_A_SECOND:%Y-%m-%d %H:%M:%S} {clock}"
 

@@ -146,6 +146,18 @@ def test_record_summary_escapes_names_and_leaves_out_lines_on_output_files(tmp_p
     assert "5.46 (5+)" in text
 
 
+def test_record_summary_has_the_earthquake_in_the_clock_of_the_record(tmp_path):
+    """It stood there as 2016-04-15T16:25:05+00:00, beside a record that begins at 01:25:15 JST."""
+    earthquake = {"latitude_deg": 32.8, "longitude_deg": 130.8, "depth_km": 12.0, "magnitude": 7.3, "name": None}
+    record = {
+        "station": "KMM", "station_name": "", "source": "a.EW", "start": None, "local_start": "2016-04-16 01:25:15 JST",
+        "earthquake": {**earthquake, "origin_time": "2016-04-15T16:25:05.4+00:00"}, "dt_s": 0.01, "samples": 100,
+        "epicentral_distance_km": 12.0, "checks": {"proved": [], "assumed": []},
+    }  # fmt: skip
+    text = views.record_summary(FakeTab, finished_job(tmp_path, {"record": record, "results": []}))
+    assert "epicentral distance 12 km, 2016-04-16 01:25:05 JST" in text
+
+
 def test_object_result_shows_the_probability_of_the_object(tmp_path):
     """The object falls under either horizontal: more often than under the worse one alone, which was shown."""
     base = {"interval": [0.1, 0.2], "runs": 200, "moved_probability": 0.5, "models": [], "least_factor": None, "greatest_factor": None,
