@@ -241,7 +241,7 @@ def integrate_many(
     rows.counters[:, MODE], rows.counters[:, SAMPLE], rows.clocks[:, TAU] = mode, start.sample, start.tau
     output, observed = _make_output(observer, motion.samples, n_states), np.full((m, observer.size), np.nan)
     # all rows pass one segment before the next is read, so that one segment is in memory
-    for segment in motion.segments((scale != 0.0).any(axis=0).tolist()):
+    for segment in motion.segments((scale != 0.0).any(axis=0).tolist(), int(rows.counters[:, SAMPLE].min(initial=motion.samples))):
         forcing = BatchForcing(segment.acceleration, scale, motion.dt)
         rows.counters[:, SEGMENT_START], rows.counters[:, SAMPLES_AFTER] = segment.first, segment.samples_after
         row = 0
@@ -249,10 +249,13 @@ def integrate_many(
         if model.stride is not None:
             assert observer is NO_OBSERVER
             integrate_rows_simd(model, forcing, p, rows, *work)
-            continue
-        while row < m:
-            check_cancelled()
-            row = integrate_rows(*model.pointers, observer.pointer, forcing, model.shape, p, rows, *work, observed, row, STEPS_PER_SLICE)
+        else:
+            while row < m:
+                check_cancelled()
+                functions = *model.pointers, observer.pointer
+                row = integrate_rows(*functions, forcing, model.shape, p, rows, *work, observed, row, STEPS_PER_SLICE)
+        if not (rows.statuses == PAUSED).any():
+            break
     end = Instants(rows.counters[:, SAMPLE], rows.clocks[:, TAU])
     failed: BoolArray = _IS_FAILURE[rows.statuses]
     observed[failed] = np.nan

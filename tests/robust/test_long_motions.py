@@ -17,6 +17,7 @@ from seisblock.bodies.pile.stone import PileStone
 from seisblock.core.errors import ParameterError
 from seisblock.core.results import Response
 from seisblock.dynamics import integrate_many
+from seisblock.models.jump import jump_many
 from seisblock.models.rock import model as rocking
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_params
@@ -100,6 +101,27 @@ def test_ensemble_over_chunked_motion_equals_whole(in_stretches):
     parts = integrate_many(rocking.ROCKING, motion_of(RECORD, "EW"), p, np.zeros(2), rocking.REST, gains=gains)
     for field in ("final", "final_mode", "end_time", "extrema", "dwell_times"):
         np.testing.assert_array_equal(getattr(parts, field), getattr(full, field))
+
+
+def test_rows_of_chains_pass_each_stretch_few_times(in_stretches, monkeypatch):
+    """Each of many chains of a jump starts where the one before it ended, and rows that have ended need no further stretch."""
+    motion, contact = motion_of(RECORD, "EW"), seisblock.load_contact("chozusha")
+    whole = jump_many([CHOZUSHA], motion, contacts=[contact], factors=2.0)
+    in_stretches()
+    read_samples, segments = [], Motion.segments
+
+    def counted(self, *arguments):
+        for segment in segments(self, *arguments):
+            read_samples.append(segment.acceleration.shape[1])
+            yield segment
+
+    monkeypatch.setattr(Motion, "segments", counted)
+    result = jump_many([CHOZUSHA], motion, contacts=[contact], factors=2.0)
+    assert result.row_dict(0) == whole.row_dict(0)
+    chains = len(whole.chains.row)
+    assert chains > 10
+    # search, rocking and flight of a chain each read the stretch in which they end
+    assert sum(read_samples) < 3 * (chains + 1) * 701 + 2 * motion.samples
 
 
 def test_curves_are_computed_on_demand(monkeypatch):
