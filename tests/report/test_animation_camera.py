@@ -51,6 +51,24 @@ def test_view_box_of_first_azimuth_is_too_narrow_for_others():
     np.testing.assert_allclose(expected[0], film("stack", 100).scene.extent(), atol=1e-4)
 
 
+def test_view_box_contains_a_body_that_falls_at_its_border():
+    """A gravestone that fell to the right was cut in two by the border of the picture: its centre was in sight, its far end was not."""
+    right = seen_from(AZIMUTH, np.eye(3))[0]
+    half, lying = math.sqrt(0.5), math.atan2(right[1], right[0])
+    # lies along the horizontal of the picture
+    turn = np.array(
+        [math.cos(lying / 2.0) * half, -math.sin(lying / 2.0) * half, math.cos(lying / 2.0) * half, math.sin(lying / 2.0) * half]
+    )
+    start, end = [0.0, 0.0, 0.315], [*(0.8 * right[:2]), 0.12]
+    solid = Solid((0.24, 0.24, 0.63), np.array([start, end]), np.array([[1.0, 0.0, 0.0, 0.0], turn]))
+    scene = Scene3D(np.zeros((2, 3)), (solid,), 0.26)
+    across, rise = seen_from(AZIMUTH, solid.corners_at(1))
+    assert across.max() > scene.visible_radius
+    left, end, bottom, top = scene.extent()
+    assert left < across.min() and across.max() < end and bottom < rise.min() and rise.max() < top
+    assert scene.patch[:, 0].max() > solid.corners_at(1)[:, 0].max()
+
+
 @pytest.mark.parametrize("displacement", [-3.0, 3.0])
 def test_view_box_follows_ground_that_rises_in_the_picture(displacement):
     """A gravestone lost its top where the ground moved away from the viewer."""

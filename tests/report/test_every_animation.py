@@ -301,9 +301,7 @@ def test_ground_patch_extends_below_fallen_stones():
     """The patch of ground is as wide as what has fallen; it was as wide as the foot alone, and stones hung in the air beside it."""
     scene = film("stack", 20).scene
     (left, front), (right, back) = scene.patch[[0, 2], :2]
-    beside = np.array(
-        [solid.corners_at(-1)[:, :2] for solid in scene.solids if np.abs(project(solid.corners_at(-1))).max() < scene.visible_radius]
-    )
+    beside = np.array([solid.corners_at(-1)[:, :2] for solid in scene.solids if scene.ends_in_sight(solid)])
     assert np.abs(beside).max() > scene.half
     assert left < beside[..., 0].min() and beside[..., 0].max() < right and front < beside[..., 1].min() and beside[..., 1].max() < back
 

@@ -147,10 +147,12 @@ class Scene3D:
         across, high = centres @ right, centres @ up
         ground, beside = self.patch + self.ground_displacement[:, np.newaxis], 0.05 * self.half
         aside, rise = ground @ right, ground @ up
-        # solids count only up to the visible radius, the ground always
-        left = min(max(float(across.min()) - reach, -self.visible_radius), float(aside.min()) - beside)
-        end = max(min(float(across.max()) + reach, self.visible_radius), float(aside.max()) + beside)
-        low = min(max(float(high.min()) - reach, -self.visible_radius), float(rise.min()) - beside)
+        # solids count only up to the visible radius, those that end within it as a whole, and the ground always
+        ends = [solid.centre[-1] + self.ground_displacement[-1] for solid in self.solids if self.ends_in_sight(solid)]
+        limit = max(self.visible_radius, *(float(np.abs((end @ right, end @ up)).max()) + reach for end in ends), 0.0)
+        left = min(max(float(across.min()) - reach, -limit), float(aside.min()) - beside)
+        end = max(min(float(across.max()) + reach, limit), float(aside.max()) + beside)
+        low = min(max(float(high.min()) - reach, -limit), float(rise.min()) - beside)
         ceiling = 1.5 * tall + max(float((self.ground_displacement @ up).max()), 0.0)
         return left, end, low, max(min(float(high.max()) + reach, ceiling), float(rise.max()) + beside)
 
@@ -159,13 +161,17 @@ class Scene3D:
         """Largest distance from the initial position that is shown, m."""
         return 1.2 * max(float(solid.centre[0, 2]) + 0.5 * solid.size[2] for solid in self.solids) + self.half
 
+    def ends_in_sight(self, solid: Solid) -> bool:
+        """Return whether the centre of a solid ends within the visible radius."""
+        return bool(np.abs(project(solid.centre[-1])).max() < self.visible_radius)
+
     @cached_property
     def patch(self) -> FloatArray:
         """Corners of the patch of ground, (4, 3), m, below all final positions in sight, with a margin."""
         low, high = np.full(2, -self.half), np.full(2, self.half)
         for solid in self.solids:
             corners, margin = solid.corners_at(-1), BORDER * min(solid.size)
-            if np.abs(project(corners)).max() < self.visible_radius:
+            if self.ends_in_sight(solid):
                 low, high = np.minimum(low, corners[:, :2].min(axis=0) - margin), np.maximum(high, corners[:, :2].max(axis=0) + margin)
         (left, front), (right, back) = low, high
         return np.array([(left, front, 0.0), (right, front, 0.0), (right, back, 0.0), (left, back, 0.0)])
