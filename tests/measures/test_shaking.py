@@ -118,6 +118,14 @@ def test_shaking_without_threshold_has_peaks_only(thresholds):
     assert shaking.threshold_m_s2 is shaking.time_above_threshold_s is shaking.longest_above_threshold_s is None
 
 
+@pytest.mark.parametrize("linear", [False, True])
+@pytest.mark.parametrize("block", [Block(0.27, 0.78), Block(0.5, 0.9, centroid_offset=0.07)])
+def test_rocking_threshold_of_shaking_is_that_of_the_outcome(block, linear):
+    """Bit by bit, of the linearised equation, too, which starts at g alpha; `batch` has one column for both."""
+    response = solve_rock(block, Motion.from_arrays([0.0, 5.0, 0.0], 0.1), linear=linear)
+    assert response_shaking(response).threshold_m_s2 == response.outcome.threshold_m_s2
+
+
 def test_threshold_does_not_depend_on_vertical_motion():
     """The threshold is the nominal one; a vertical motion changes the response, not the shaking."""
     rows = np.random.default_rng(1).normal(size=(2, 300))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import fields
 
 from seisblock.bodies.block import Block
@@ -22,9 +23,9 @@ def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
 
 
 def _threshold(block: Block, options: RockOptions) -> tuple[float, float]:
-    """Return g b/h about the right and the left lower corner ([Furukawa2009]_ eq. (2))."""
-    right, left = block.arms
-    return options.gravity * right / block.centre, options.gravity * left / block.centre
+    """Return g tan(alpha) = g b/h about the right and left lower corner ([Furukawa2009]_ eq. (2)); g alpha of the linearised equation."""
+    right, left = block.slendernesses if options.linear else map(math.tan, block.slendernesses)
+    return options.gravity * right, options.gravity * left
 
 
 SOLVER = register(
