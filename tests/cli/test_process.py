@@ -16,6 +16,7 @@ from click.testing import CliRunner
 
 from seisblock import samples
 from seisblock.cli import COMMANDS, main
+from tests.bodies.meshes import box, write_stl
 from tests.brief_record import brief_record
 from tests.lengths import all_but_slow
 from tests.readers import data_center
@@ -177,9 +178,12 @@ def test_progress_bar_appears_on_terminal_for_long_work_only(tmp_path, monkeypat
 
 @pytest.fixture(scope="module")
 def brief_samples(tmp_path_factory):
-    """Bundled files, with the default record cut to its strong part."""
+    """Bundled files, with the default record cut to its strong part, and a scan of eight vertices in place of the boulder."""
     folder = tmp_path_factory.mktemp("samples") / "bundled"
     shutil.copytree(samples.sample_directory(), folder)
+    scan, boulder = write_stl(folder.parent / "slab.stl", *box(0.3, 0.4, 0.9)), folder / "boulder.toml"
+    boulder.unlink()
+    assert CliRunner().invoke(main, ["body", str(scan), "--name", "boulder", "--out", str(boulder)]).exit_code == 0
     (folder / samples.DEFAULT_SAMPLE).write_bytes(brief_record())
     return folder
 
