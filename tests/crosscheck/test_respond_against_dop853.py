@@ -95,7 +95,7 @@ def test_recorded_motions_equal_dop853(body, stem, up, scale):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", sorted(set(range(100)).union(LONG) - set(SEEDS) - set(CHAOTIC) - set(EXPENSIVE)))
+@pytest.mark.parametrize("seed", sorted(set(range(0, 100, 2)).union(LONG) - set(SEEDS) - set(CHAOTIC) - set(EXPENSIVE)))
 def test_more_random_objects_equal_dop853(seed):
-    """The same for seventy more."""
+    """The same for 37 more."""
     agrees(some_case(seed), program(some_case(seed)), reference(seed))
