@@ -198,7 +198,8 @@ def workshop(tmp_path, brief_samples, monkeypatch, request, computed_once):
     shutil.copy(samples.sample_directory() / "aoyama.csv", tmp_path / "cemetery.csv")
     (tmp_path / "stations.csv").write_text("station,pga (gal),frequency (Hz),rate\nAAA,300,1.2,0.2\nBBB,600,2.0,0.5\n", encoding="utf-8")
     if getattr(request.node, "callspec", None) is None or request.node.callspec.params.get("name") not in {"paper", "validate"}:
-        monkeypatch.setattr(samples, "sample_directory", lambda: brief_samples)
+        for module in ("samples", "bodies.toml"):
+            monkeypatch.setattr(f"seisblock.{module}.sample_directory", lambda: brief_samples)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -246,7 +247,8 @@ def test_help_examples_run(name, workshop, monkeypatch, request):
             assert result.returncode == 0, (line, result.stderr)
         else:
             # every case of the papers is a test of its own
-            result = CliRunner().invoke(main, [*shlex.split(line)[1:], *["--quick"] * (name == "validate")])
+            brief = ["--quick"] if name == "validate" else ["--runs", "50"] if "--twist" in line else []
+            result = CliRunner().invoke(main, [*shlex.split(line)[1:], *brief])
             assert result.exit_code == 0, (line, result.output)
 
 

@@ -57,8 +57,9 @@ except KeyboardInterrupt:
 COMMAND = """
 import contextlib, io
 from seisblock.cli import main
-brief = {"stack": [], "rock": ["--block", "gravestone"], "respond": ["--block", "gravestone", "--runs", "2"], "slide": ["--mu", "0.2,0.3"],
-         "spectrum": ["--kind", "modes", "--steps", "2"], "infer": ["--slid", "5cm", "--mu", "0.2", "--steps", "3"]}
+brief = {"stack": ["--window", "26:27"], "rock": ["--block", "gravestone"], "respond": ["--block", "gravestone", "--runs", "2"],
+         "slide": ["--mu", "0.2,0.3"], "spectrum": ["--kind", "modes", "--steps", "2"],
+         "infer": ["--slid", "5cm", "--mu", "0.2", "--steps", "3"]}
 with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):
     main([sys.argv[1], *brief[sys.argv[1]], "--quiet"])
 print("go", flush=True)
