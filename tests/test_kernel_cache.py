@@ -2,6 +2,7 @@
 
 import ast
 import contextlib
+import json
 import logging
 import os
 import re
@@ -49,21 +50,55 @@ def start(folder, script, **options):
     return subprocess.Popen([sys.executable, "-c", script], env=environment, text=True, **pipes, **options)
 
 
-def messages_of(process, script):
+def checked(code, output, messages, script):
     """Return the messages of a script after checking its output."""
-    output, messages = process.communicate()
-    assert (process.returncode, output.split()) == (0, OUTPUT[: script.count("print")]), messages
+    assert (code, output.split()) == (0, OUTPUT[: script.count("print")]), messages
     return messages.splitlines()
 
 
-def run(folder, script=SCRIPT, **options):
-    """Run a script with a cache folder; return its messages after checking its output."""
-    with start(folder, script, **options) as process:
-        return messages_of(process, script)
+def messages_of(process, script):
+    """Return the messages of a process that runs a script."""
+    output, messages = process.communicate()
+    return checked(process.returncode, output, messages, script)
+
+
+FORKS = """
+import json, os, sys
+import numba, numpy
+numba.njit("f8(f8)")(lambda x: x)
+for line in sys.stdin:
+    script, folder, *outputs = json.loads(line)
+    if not (child := os.fork()):
+        os.environ["SEISBLOCK_CACHE_DIR"] = folder
+        for number, path in enumerate(outputs, 1):
+            os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT), number)
+        exec(script, {})
+        sys.stdout.flush()
+        os._exit(0)
+    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+"""
+"""Runs each script in a process of its own, which imports seisblock afresh; numba, which takes most of the time, is there."""
 
 
 @pytest.fixture(scope="module")
-def filled(tmp_path_factory):
+def run(tmp_path_factory):
+    """Function that runs a script with a cache folder and returns its messages after checking its output."""
+    outputs = [tmp_path_factory.mktemp("outputs") / name for name in ("stdout", "stderr")]
+    with subprocess.Popen([sys.executable, "-c", FORKS], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as forks:
+
+        def run_script(folder, script=SCRIPT):
+            for path in outputs:
+                path.unlink(missing_ok=True)
+            print(json.dumps([script, *map(str, (folder, *outputs))]), file=forks.stdin, flush=True)
+            code = int(forks.stdout.readline())
+            return checked(code, *(path.read_text("utf-8") for path in outputs), script)
+
+        yield run_script
+        forks.stdin.close()
+
+
+@pytest.fixture(scope="module")
+def filled(tmp_path_factory, run):
     """Cache folder with the kernels of the script."""
     folder = tmp_path_factory.mktemp("kernels")
     assert run(folder) == [COMPILING]
@@ -98,21 +133,21 @@ def test_a_process_loads_only_the_kernels_that_python_calls(folder):
     assert process.stdout.splitlines() == [*OUTPUT, "evaluate first_crossing"]
 
 
-def test_a_second_process_loads_kernels_without_a_message(folder):
+def test_a_second_process_loads_kernels_without_a_message(run, folder):
     before = cached_files(folder)
     assert len(before) == 4
     assert run(folder) == []
     assert cached_files(folder) == before
 
 
-def test_kernels_that_another_command_did_not_need_are_announced(folder):
+def test_kernels_that_another_command_did_not_need_are_announced(run, folder):
     (path,) = folder.rglob("polynomial.first_crossing*.nbi")
     shutil.rmtree(path.parents[1])
     assert run(folder) == [COMPILING]
     assert run(folder) == []
 
 
-def test_processes_that_compile_at_the_same_time_leave_a_sound_cache(tmp_path):
+def test_processes_that_compile_at_the_same_time_leave_a_sound_cache(run, tmp_path):
     """Each kernel's folder is renamed into place when it is complete."""
     processes = [start(tmp_path, FIRST) for _ in range(3)]
     for process in processes:
@@ -123,7 +158,7 @@ def test_processes_that_compile_at_the_same_time_leave_a_sound_cache(tmp_path):
     assert run(tmp_path, FIRST) == []
 
 
-def test_kernels_of_changed_files_are_compiled_without_a_warning(folder):
+def test_kernels_of_changed_files_are_compiled_without_a_warning(run, folder):
     """Numba compiles again where the modification time of a source file has changed; here its stamp is replaced."""
     script = f"from numba.core import caching; caching._SourceFileBackedLocatorMixin.get_source_stamp = lambda self: 'other'\n{FIRST}"
     before = cached_files(folder)
@@ -157,7 +192,7 @@ DAMAGE = {
         ),
     ],
 )
-def test_a_damaged_kernel_is_compiled_again_with_one_warning(folder, name, damage, script):
+def test_a_damaged_kernel_is_compiled_again_with_one_warning(run, folder, name, damage, script):
     """Altered machine code would be executed."""
     for path in folder.rglob(name):
         path.write_bytes(DAMAGE[damage](path.read_bytes()))
@@ -168,13 +203,14 @@ def test_a_damaged_kernel_is_compiled_again_with_one_warning(folder, name, damag
 
 
 def test_a_full_disk_has_one_warning_and_no_other_effect(tmp_path):
-    messages = run(tmp_path / "kernels", FIRST, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
+    with start(tmp_path / "kernels", FIRST, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))) as process:
+        messages = messages_of(process, FIRST)
     assert messages[0] == COMPILING
     assert len(messages) == 2 and "set SEISBLOCK_CACHE_DIR to a writable folder" in messages[1] and os.strerror(27) in messages[1]
 
 
 @pytest.mark.parametrize("place", ["file", "file/below"])
-def test_a_folder_that_cannot_be_created_has_one_warning_and_no_other_effect(tmp_path, place):
+def test_a_folder_that_cannot_be_created_has_one_warning_and_no_other_effect(run, tmp_path, place):
     (tmp_path / "file").touch()
     messages = run(tmp_path / place, FIRST)
     assert len(messages) == 1 and "set SEISBLOCK_CACHE_DIR to a writable folder" in messages[0]
@@ -182,7 +218,7 @@ def test_a_folder_that_cannot_be_created_has_one_warning_and_no_other_effect(tmp
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
-def test_a_read_only_folder_has_one_warning_and_is_left_unchanged(folder):
+def test_a_read_only_folder_has_one_warning_and_is_left_unchanged(run, folder):
     before = cached_files(folder)
     for path in [folder, *folder.rglob("*")]:
         path.chmod(0o555 if path.is_dir() else 0o444)
@@ -195,7 +231,7 @@ def test_a_read_only_folder_has_one_warning_and_is_left_unchanged(folder):
     assert cached_files(folder) == before
 
 
-def test_the_library_is_silent_without_a_logging_configuration(folder):
+def test_the_library_is_silent_without_a_logging_configuration(run, folder):
     for path in folder.rglob("*.nbc"):
         path.write_bytes(b"")
     script = FIRST.split("\n", 1)[1]
@@ -272,7 +308,7 @@ def test_folders_that_hold_no_kernels_are_not_removed(versions):
     assert versions(400, 300, 200, content="letters/home.txt") == [400, 300, 200]
 
 
-def test_use_of_a_folder_renews_its_time_of_last_use(folder):
+def test_use_of_a_folder_renews_its_time_of_last_use(run, folder):
     (version,) = folder.iterdir()
     os.utime(version, (0.0, 0.0))
     run(folder, FIRST)
@@ -351,6 +387,6 @@ def test_messages_of_the_logger_reach_a_handler(tmp_path, monkeypatch, caplog):
     monkeypatch.setattr(cache, "_read_only", False)
     (tmp_path / "file").touch()
     with caplog.at_level(logging.INFO, "seisblock.jit"):
-        assert cache.load_or_compile(lambda cache: cache, run) is False
+        assert cache.load_or_compile(lambda cache: cache, start) is False
     assert [record.levelname for record in caplog.records] == ["WARNING"]
     assert "cannot write the kernel cache" in caplog.text
