@@ -16,6 +16,7 @@ FUNCTIONS = (
     "models.respond.batch.respond_many",
     "models.rigid3d.solve.solve_rigid3d",
     "models.stack.solve.solve_stack",
+    "measures.rotd.rotated_spectrum",
     "measures.summary.measure",
     "studies.assessment.assess_direction",
     "studies.criteria_comparison.compare_criteria",

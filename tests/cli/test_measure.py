@@ -24,12 +24,12 @@ def run(tmp_path, monkeypatch):
     return lambda *words: CliRunner().invoke(main, ["measure", *map(str, words)])
 
 
-@pytest.fixture
-def sines(tmp_path):
+@pytest.fixture(scope="module")
+def sines(tmp_path_factory):
     """A plain CSV: 1 Hz, 200 gal north; 2 Hz, 100 gal east; 5 Hz, 50 gal up; from rest, 60 s."""
     t = np.arange(12001) * 0.005
     rows = np.column_stack([t, *(a * np.sin(2 * math.pi * f * t) for a, f in ((200, 1), (100, 2), (50, 5)))])
-    path = tmp_path / "sines.csv"
+    path = tmp_path_factory.mktemp("sines") / "sines.csv"
     np.savetxt(path, rows, delimiter=",", header="time,NS (gal),EW (gal),UD (gal)", comments="", fmt="%.17g")
     return path
 
