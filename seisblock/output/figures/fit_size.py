@@ -292,28 +292,30 @@ class Layout:
         for axis, place in self.places:
             axis.set_position(place)
             axis.set_in_layout(True)
-        with warnings.catch_warnings(record=True) as caught:
-            # matplotlib warns when panels collapse; detected here
-            warnings.simplefilter("always", UserWarning)
-            _redraw_legends(fig, self.keys, share, {})
-            with use_fonts(fig, fig.locale):
-                fig.get_layout_engine().execute(fig)  # type: ignore[union-attr]
-                if _layout_failed(caught):
-                    return False
-                changes = _legend_changes(fig)
-                if changes:
-                    _redraw_legends(fig, self.keys, share, changes)
-                    set_fonts(fig, fig.locale)
-                _wrap_labels(fig)
-            # as in drawing: move legends above titles, then lay out again
-            fig.lift_legends()
-            fig.draw_without_rendering()
-            return not _layout_failed(caught) and min(_panel_sides(fig)) >= MIN_PANEL and not has_overlaps(fig)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)
+            # panels that collapse end the trial at once
+            warnings.filterwarnings("error", ".*collapsed to zero", UserWarning)
+            try:
+                self._lay_out(share)
+            except UserWarning:
+                return False
+        return min(_panel_sides(fig)) >= MIN_PANEL and not has_overlaps(fig)
 
-
-def _layout_failed(caught: list[warnings.WarningMessage]) -> bool:
-    """Return True if matplotlib's layout collapsed."""
-    return any("collapsed to zero" in str(warning.message) for warning in caught)
+    def _lay_out(self, share: float) -> None:
+        """Lay out and draw the figure with fonts scaled by `share`; raise matplotlib's UserWarning if panels collapse."""
+        fig = self.fig
+        _redraw_legends(fig, self.keys, share, {})
+        with use_fonts(fig, fig.locale):
+            fig.get_layout_engine().execute(fig)  # type: ignore[union-attr]
+            changes = _legend_changes(fig)
+            if changes:
+                _redraw_legends(fig, self.keys, share, changes)
+                set_fonts(fig, fig.locale)
+            _wrap_labels(fig)
+        # as in drawing: move legends above titles, then lay out again
+        fig.lift_legends()
+        fig.draw_without_rendering()
 
 
 def _redraw_legends(
