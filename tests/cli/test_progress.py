@@ -85,11 +85,11 @@ def command_output(tmp_path_factory):
     """Output of each command on a terminal and elsewhere, after compilation."""
     workshop = tmp_path_factory.mktemp("workshop")
     (workshop / "record.csv").write_bytes(brief_record())
-    lines = [*dict.fromkeys(WORKS.values()), QUIET]
+    lines = list(dict.fromkeys(WORKS.values()))
     off = off_a_terminal(COMMANDS, lines, workshop)
     if "compiling kernels" in off:
         off = off_a_terminal(COMMANDS, lines, workshop)
-    return by_command(off), by_command(on_a_terminal(COMMANDS, lines, workshop))
+    return by_command(off), by_command(on_a_terminal(COMMANDS, [*lines, QUIET], workshop))
 
 
 def read(terminal):
