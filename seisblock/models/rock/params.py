@@ -19,6 +19,14 @@ CornerPair = tuple[float, float]
 """Values of the right and of the left corner."""
 
 
+def threshold_ratios(alphas: CornerPair, *, linear: bool) -> CornerPair:
+    """Return the ratios of horizontal to vertical acceleration at the rocking thresholds.
+
+    tan(alpha) = b/h ([Furukawa2009]_ eq. (2)); alpha of the linear equation ([Zhang2001]_ eqs. (4), (5)).
+    """
+    return alphas if linear else (math.tan(alphas[0]), math.tan(alphas[1]))
+
+
 @dataclass(frozen=True)
 class RockParams:
     """Parameters of the rocking runs of one block; pairs are (right corner, left corner).
@@ -51,7 +59,7 @@ class RockParams:
     @property
     def thresholds(self) -> CornerPair:
         """Ratio of horizontal to vertical acceleration at the rocking threshold of each corner."""
-        return self.alphas if self.linear else (math.tan(self.alphas[0]), math.tan(self.alphas[1]))
+        return threshold_ratios(self.alphas, linear=self.linear)
 
     @property
     def weak_corner(self) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import fields
 
 from seisblock.bodies.block import Block
@@ -12,6 +11,7 @@ from seisblock.bodies.table import BodySpec
 from seisblock.core.registry import Solver, SolverBody, ValueMap, register
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
+from seisblock.models.rock.params import threshold_ratios
 from seisblock.models.rock.rows import solve_rock_rows
 from seisblock.models.rock.solve import solve_rock
 
@@ -23,8 +23,8 @@ def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
 
 
 def _threshold(block: Block, options: RockOptions) -> tuple[float, float]:
-    """Return g tan(alpha) = g b/h about the right and left lower corner ([Furukawa2009]_ eq. (2)); g alpha of the linearised equation."""
-    right, left = block.slendernesses if options.linear else map(math.tan, block.slendernesses)
+    """Return the accelerations at which the block begins to rock about its right and left lower corner, m/s^2."""
+    right, left = threshold_ratios(block.slendernesses, linear=options.linear)
     return options.gravity * right, options.gravity * left
 
 
