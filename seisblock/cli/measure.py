@@ -13,6 +13,7 @@ from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, output_options, real_record_options
 from seisblock.cli.output import OutputOptions
+from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH
 from seisblock.core.errors import InputError
@@ -105,9 +106,12 @@ def measure(
     rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=THRESHOLD_SIDES[direction], gravity_m_s2=gravity)
     level, origin = _threshold(gravity=gravity, **threshold)
     records = load_records(source, vertical_counts=True, use_recording=True)
-    answers = [
-        compute_measures(r, selected_components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records
-    ]
+    answers = []
+    with progress("records") as advance:
+        for record in records:
+            components = selected_components(record, source, vertical_counts=True)
+            answers.append(compute_measures(record, components, threshold=level, conventions=rules))
+            advance(len(answers), len(records))
     rules = conventions_of(records[0], rules)
     answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 

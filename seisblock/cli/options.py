@@ -208,7 +208,7 @@ _FIGURE_OPTIONS = (
         type=SIZE,
         metavar="WxH",
         section="Output",
-        help="Width and height of the figure, 18x12, cm; or with units, 7inx5in. [default: from the content]",
+        help="Width and height of the figure, 18x12, cm; or with units, 85x120mm. [default: from the content]",
     ),
     option("--dpi", type=click.IntRange(30, 1200), default=DPI, show_default=True, section="Output", help="Resolution of a .png, 1/inch."),
     option("--title", section="Output", metavar="TEXT", help="Title of the figure; empty for none. [default: station, time, processing]"),

@@ -208,7 +208,7 @@ class Quantities(Floats):
 
 
 class SizeType(click.ParamType):  # type: ignore[type-arg]
-    """Width and height of a figure, ``18x12``: cm, or with units (``7inx5in``, ``180mmx120mm``)."""
+    """Width and height of a figure, ``18x12``: cm, or with units (``7inx5in``, ``180x120mm``)."""
 
     name = "size"
 
@@ -219,11 +219,15 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
         sides = to_halfwidth(value).lower().replace("×", "x").split("x")
         if len(sides) != 2:
             self.fail(gettext("{value!r} is not a width and a height, for example 18x12 (cm)", value=value), param, ctx)
+        # a side without unit has that of the other: 85x120mm
+        units = [side.strip().lstrip("0123456789.+-e ") for side in sides]
+        unit = next(filter(None, units), "cm")
         try:
-            width, height = (parse_length(side if side.strip()[-1:].isalpha() else f"{side}cm", quantity="size") for side in sides)
+            width, height = (
+                parse_length(side if own_unit else f"{side}{unit}", quantity="size") for side, own_unit in zip(sides, units, strict=True)
+            )
         except InputError as error:
             self.fail(str(error), param, ctx)
-        unit = sides[0].strip().lstrip("0123456789.+-e ") or "cm"
         for side in (width, height):
             if not MIN_SIDE <= side <= MAX_SIDE:
                 lower, upper = (f"{limit_m / LENGTH_UNITS[unit]:.4g} {unit}" for limit_m in (MIN_SIDE, MAX_SIDE))

@@ -16,13 +16,14 @@ MOTION = sb.motion_of(sb.records.crop(RECORD, 24.0, 26.0), "EW")
 BLOCK, LAYERS, PILE = sb.load_block("gravestone"), sb.load_two_layer("chozusha"), sb.load_pile("wagata")
 SPRINGS = sb.SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)
 CEMETERY = sb.read_cemetery("aoyama.csv")
+PARAMS = sb.models.respond_params(BLOCK, options=RespondOptions(mu=0.3))
 
 OF_MOTIONS = {
     "mode_map": lambda motion: sb.studies.mode_map([0.3], [1.0], [0.2], motion),
     "slide_study": lambda motion: sb.studies.slide_study(0.2, motion),
     "respond_probability": lambda motion: sb.uncertainty.respond_probability(BLOCK, motion, options=RespondOptions(mu=0.3), runs=2),
     "stack_probability": lambda motion: sb.uncertainty.stack_probability(PILE, motion, runs=2),
-    "respond_many": lambda motion: sb.models.respond_many([sb.models.respond_params(BLOCK, options=RespondOptions(mu=0.3))], motion),
+    "respond_many": lambda motion: sb.models.respond_many([PARAMS], motion),
     "jump_many": lambda motion: sb.models.jump_many([LAYERS], motion, contacts=[sb.load_contact("chozusha")]),
     "uplift_many": lambda motion: sb.models.uplift_many([SPRINGS], motion),
     "scale_factors": lambda motion: sb.survey.scale_factors(lambda factor: factor, 0.05, motion),
@@ -125,6 +126,13 @@ def test_functions_require_a_body(name):
         (lambda: sb.motion_of(RECORD, None), "no component 'None'; available: NS, EW, UD"),
         (lambda: sb.measures.jma_class("5+"), "the intensity must be a number, found '5\\+'"),
         (lambda: sb.records.crop(RECORD, "a", 2.0), "the start of the window must be a number, found 'a'"),
+        (
+            lambda: sb.models.uplift_many([SPRINGS] * 2, MOTION, gains=np.ones((3, 3))),
+            r"`gains` must have shape \(3,\) or \(2, 3\), one row per run, found \(3, 3\)",
+        ),
+        (lambda: sb.models.uplift_many([SPRINGS], MOTION, gains=1.0), r"`gains` must have shape .*, found \(\)"),
+        (lambda: sb.models.respond_many([PARAMS] * 2, MOTION, gains=np.ones((3, 3))), r"\(2, 3\), one row per run, found \(3, 3\)"),
+        (lambda: sb.models.respond_many([PARAMS], MOTION, gains="abc"), "`gains` must be numbers, found 'abc'"),
         (lambda: sb.load_block(None), "expected a path or a name, found None"),
         (lambda: sb.load_two_layer(3), "expected a path or a name, found int"),
         (lambda: sb.read_cemetery(b"aoyama.csv"), "expected a path or a name, found bytes"),

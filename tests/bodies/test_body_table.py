@@ -58,6 +58,12 @@ def test_comma_in_a_title_or_a_note_is_no_separator(tmp_path, separator):
     assert read_table(tmp_path, text) == read_table(tmp_path, f"sep={separator}\n{text}") == expected
 
 
+def test_stated_separator_decides(tmp_path):
+    """Commas in the title and in every row: the separator was counted although the first line states it."""
+    text = 'Inventory, room 1, 2024\nname;width;height\n"vase, blue, small, old";12cm;40cm\n'
+    assert read_table(tmp_path, f"sep=;\n{text}") == {"vase, blue, small, old": {"width": 0.12, "height": 0.4}}
+
+
 @pytest.mark.parametrize("name", ["展示台（大）.toml", "台２.toml", "台2.toml"])
 def test_file_of_a_body_may_have_full_width_letters(tmp_path, monkeypatch, name):
     """Cells are normalised: the file was not found, nor was an upload of the app with a friction typed in under a JMA intensity."""

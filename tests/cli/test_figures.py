@@ -25,11 +25,13 @@ def draw_figure(tmp_path):
         (("--dpi", "100"), (850, 700)),
         (("--size", "18x12"), (18 / 2.54 * 200, 12 / 2.54 * 200)),
         (("--size", "5inx4in", "--dpi", "72"), (360, 288)),
+        (("--size", "90x110mm", "--dpi", "72"), (9 / 2.54 * 72, 11 / 2.54 * 72)),
+        (("--size", "90mmx110", "--dpi", "72"), (9 / 2.54 * 72, 11 / 2.54 * 72)),
         (("--size", "90mm×9cm"), (9 / 2.54 * 200, 9 / 2.54 * 200)),
     ],
 )
 def test_size_and_dpi_set_figure_dimensions(draw_figure, words, pixels):
-    """200 dots per inch by default; centimetres unless a unit is given."""
+    """200 dots per inch by default; centimetres unless a unit is given, which a bare side shares."""
     text, result = draw_figure(*words)
     assert text.exit_code == 0, text.output
     assert result == pytest.approx(pixels, abs=1)

@@ -136,6 +136,8 @@ def test_infer_from_sliding_lists_factors(run, document):
     japanese = run("--slid", "5cm", "--mu", 0.1, "--component", "10", "hanmer_springs_2016", "--lang", "ja").stdout.partition("HSES")[0]
     assert japanese.count("（") >= 3 and "gal)" not in japanese
     assert "NS: slip of 5.0 cm at a scale factor of 0.635 (593.2 gal); unscaled record: 43.2 cm." in " ".join(output.split())
+    output = run("--slid", "43.4cm", "--mu", 0.2, "--component", "NS", "--steps", 60).stdout
+    assert "at a scale factor of 1.002 (935.5 gal)" in " ".join(output.split())
     output = run("--slid", "5cm", "--mu", 0.2, "--component", "NS", "--steps", 60, "--no-vertical").stdout
     assert "NS: slip of 5.0 cm at a scale factor of 0.612 (571.5 gal); unscaled record: 44.8 cm." in " ".join(output.split())
 

@@ -1,8 +1,10 @@
 """``seisblock measure`` prints the measures of a record in a table, a document, a file and a figure."""
 
+import contextlib
 import csv
 import json
 import math
+import sys
 
 import numpy as np
 import pytest
@@ -182,3 +184,16 @@ def test_help_lists_processing_options_in_order(run):
     text = " ".join(run("--help-all").stdout.split())
     assert "over the whole record, before --floor and --window" in text
     assert "after --demean, before --scale" in text and "before anything else" not in text
+
+
+def test_measure_counts_the_records_in_progress(run, sines, monkeypatch):
+    """Hundreds of records were measured for minutes without a count."""
+    counts = []
+
+    @contextlib.contextmanager
+    def count(text):
+        yield lambda *numbers: counts.append((text, *numbers))
+
+    monkeypatch.setattr(sys.modules["seisblock.cli.measure"], "progress", count, raising=False)
+    assert run(sines, "elcentro_1940_ns").exit_code == 0
+    assert counts == [("records", 1, 2), ("records", 2, 2)]

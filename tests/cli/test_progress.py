@@ -42,7 +42,7 @@ with shown.progress("working"):
 
 WORKS = {
     "working": "measure record.csv",
-    "computing": "measure record.csv",
+    "computing": "slide record.csv --mu 0.2 --plot slide.png",
     "reading record.csv": "measure record.csv",
     "margin": "rock record.csv --block gravestone --margin",
     "samples": "respond record.csv --block gravestone --runs 100",

@@ -111,6 +111,14 @@ def test_separator_line_of_excel_is_skipped(table, first):
     assert (record.codes, record.dt, record.samples) == (("NS", "EW", "UD"), 0.01, 3)
 
 
+def test_stated_separator_decides(table):
+    """Vertical bars beside decimal commas, and names with a semicolon: the separator was guessed although the first line states it."""
+    record = read(table("sep=|\ntime (s)|NS (gal)\n0,00|1,5\n0,01|2,5\n0,02|3,5\n"))
+    assert record.component("NS").acceleration.tolist() == [0.015, 0.025, 0.035]
+    record = read(table("sep=,\ntime (s),NS; raw (gal)\n0.00,1.5\n0.01,2.5\n0.02,3.5\n"))
+    assert record.components[0].acceleration.tolist() == [0.015, 0.025, 0.035]
+
+
 def test_decimal_commas_with_semicolons_are_accepted(table):
     """A spreadsheet of the continent: semicolons and decimal commas."""
     record = read(table("time;NS (g)\n0,00;0,5\n0,02;-0,25\n0,04;1\n"))

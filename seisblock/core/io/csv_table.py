@@ -22,9 +22,18 @@ MAX_LISTED_ROWS = 5
 """Maximum number of further invalid rows listed in a message."""
 
 
+_SEPARATOR_LINE = re.compile(r'[\ufeff \t]*"?sep=(.?)"?\s*', re.IGNORECASE)
+
+
 def is_separator_line(line: str) -> bool:
     """Return whether a line is the first one of a table by which Excel knows its separator (``sep=;``)."""
-    return re.fullmatch(r'"?sep=.?"?', line.strip("\ufeff \t"), re.IGNORECASE) is not None
+    return _SEPARATOR_LINE.fullmatch(line) is not None
+
+
+def stated_separator(lines: Sequence[str]) -> str | None:
+    """Return the separator stated in the first line of a table (``sep=;``): comma, tab, semicolon or bar; None without one."""
+    match = _SEPARATOR_LINE.fullmatch(lines[0]) if lines else None
+    return match[1] if match and match[1] and match[1] in ",\t;|" else None
 
 
 def decode_text(data: bytes, name: str) -> str:

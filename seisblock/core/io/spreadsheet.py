@@ -12,7 +12,15 @@ from typing import Any
 
 from seisblock.core.errors import BodyError, InputError
 from seisblock.core.i18n import N_, Message
-from seisblock.core.io.csv_table import decode_text, is_separator_line, more_bad_rows, normalize_cell, parse_heading, row_dict
+from seisblock.core.io.csv_table import (
+    decode_text,
+    is_separator_line,
+    more_bad_rows,
+    normalize_cell,
+    parse_heading,
+    row_dict,
+    stated_separator,
+)
 from seisblock.core.io.files import read_bytes
 from seisblock.core.limits import MAX_CELLS, check_file_size, check_limit
 
@@ -132,12 +140,16 @@ def read_sheet(path: Path, name: str) -> Sheet:
 
 
 def text_sheet(text: str, source: str) -> Sheet:
-    """Return the rows of a CSV text; its separator is that of most lines, and a cell in quotes may have several lines."""
+    """Return the rows of a CSV text; a cell in quotes may have several lines.
+
+    The separator is the stated one (``sep=;``), else that of most lines.
+    """
     lines = text.splitlines()
+    # a title may have a comma, and so may numbers and notes, but not the header of a table with another separator
+    counted = [line for line in lines if not _is_comment(line)]
+    separator = stated_separator(lines) or max(",\t;|", key=lambda mark: (sum(mark in line for line in counted), text.count(mark)))
     if lines and is_separator_line(lines[0]):
         lines[0] = ""
-    # a title may have a comma, and so may numbers and notes, but not the header of a table with another separator
-    separator = max(",\t;|", key=lambda mark: (sum(mark in line for line in lines if not _is_comment(line)), text.count(mark)))
     rows: list[Row] = []
     notes: list[tuple[int, str]] = []
     read: list[int] = []  # lines of the row being read

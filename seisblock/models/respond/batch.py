@@ -144,7 +144,12 @@ def respond_many(
         raise ParameterError("`params` is empty: at least one row is required")
     for row_params in () if isinstance(params, RespondBatchParams) else params:
         checks.instance(row_params, RespondParams)
-    rows = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (len(params), 3)))
+    rows = checks.float_array("`gains`", gains)
+    if rows.shape not in ((3,), (1, 3), (len(params), 3)):
+        raise ParameterError(
+            "`gains` must have shape (3,) or ({rows}, 3), one row per run, found {shape}", rows=len(params), shape=str(rows.shape)
+        )
+    rows = np.array(np.broadcast_to(rows, (len(params), 3)))
     chunk_size = max(MIN_ROWS_PER_TASK, SAMPLES_PER_TASK // motion.samples)
     pool, cancel_event = ThreadPoolExecutor(workers or os.cpu_count()), Event()
     events = (*current_events(), cancel_event)

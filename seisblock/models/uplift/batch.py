@@ -54,8 +54,12 @@ def uplift_many(
         raise ParameterError("`bodies` is empty: at least one body is required")
     for body in bodies:
         checks.instance(body, SpringBlock)
-    rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
-    runs = max(len(bodies), len(rows))
+    rows = np.atleast_2d(checks.float_array("`gains`", gains))
+    runs = len(rows) if len(bodies) == 1 else len(bodies)
+    if rows.shape not in ((1, 3), (runs, 3)):
+        raise ParameterError(
+            "`gains` must have shape (3,) or ({rows}, 3), one row per run, found {shape}", rows=runs, shape=str(np.shape(gains))
+        )
     all_bodies = list(bodies) * runs if len(bodies) == 1 else list(bodies)
     p, initial_states = parameters(bodies, gravity, motion.dt), np.array([static_state(body, gravity) for body in all_bodies])
     p = np.repeat(p, runs, axis=0) if len(bodies) == 1 else p

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from seisblock.core.errors import RecordFormatError
-from seisblock.core.io.csv_table import is_separator_line
+from seisblock.core.io.csv_table import is_separator_line, stated_separator
 from seisblock.readers._header import parse_number
 from seisblock.readers.table.columns import is_header_row
 from seisblock.readers.table.headers import is_clock_unit, is_unit, split_unit
@@ -93,14 +93,15 @@ def looks_like_csv(lines: Sequence[str]) -> bool:
     body = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
     if body is None:
         return False
-    separator = find_separator(lines[body])
+    separator = stated_separator(lines) or find_separator(lines[body])
     if _is_numeric_row(lines[body], separator):
         return True
     names = _split_cells(lines[body], separator)
     next_line = next((line for line in lines[body + 1 :] if is_data_line(line)), "")
     if is_header_row(names) or merge_unit_row(names, _unit_cells(next_line, separator)):
         return True
-    return _is_numeric_row(next_line, find_separator(next_line)) and len(_split_cells(next_line, find_separator(next_line))) == len(names)
+    separator = stated_separator(lines) or find_separator(next_line)
+    return _is_numeric_row(next_line, separator) and len(_split_cells(next_line, separator)) == len(names)
 
 
 def preamble_error(name: str, lines: Sequence[str]) -> RecordFormatError | None:
@@ -153,7 +154,7 @@ def find_layout(name: str, lines: Sequence[str]) -> TableLayout:
     first = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
     if first is None:
         raise RecordFormatError("{name}: comments only; expected columns of numbers", name=name)
-    separator = find_separator(lines[first])
+    separator = stated_separator(lines) or find_separator(lines[first])
     if not _is_numeric_row(lines[first], separator):
         names = tuple(_split_cells(lines[first], separator))
         units_line = next((i for i, line in enumerate(lines[first + 1 :], first + 1) if is_data_line(line)), first)

@@ -176,7 +176,7 @@ def factor_tables(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, 
 def _factor_sentence(result: ScaleFactors, displacement_kind: str, *, gal: bool) -> str:
     """Return a sentence on the scale factors that reproduce the observed displacement."""
     factor_texts = [
-        gettext("{factor:.3g} ({pga})", factor=item.scale, pga=format_acceleration(item.pga_m_s2, gal=gal)) for item in result.scale_factors
+        gettext("{factor:.3f} ({pga})", factor=item.scale, pga=format_acceleration(item.pga_m_s2, gal=gal)) for item in result.scale_factors
     ]
     size, as_recorded, largest = (
         format_length(length, gal=gal) for length in (result.observed_m, result.displacement_at_1_m, result.largest_displacement_m)
@@ -188,7 +188,7 @@ def _factor_sentence(result: ScaleFactors, displacement_kind: str, *, gal: bool)
         )
         return gettext(text, **values, limit=result.limit, most=largest, at=result.largest_at_scale)
     if len(factor_texts) == 1:
-        text = N_("{name}: {moved} of {size} at a scale factor of {factor:.3g} ({pga}); unscaled record: {alone}.")
+        text = N_("{name}: {moved} of {size} at a scale factor of {factor:.3f} ({pga}); unscaled record: {alone}.")
         pga = format_acceleration(result.scale_factors[0].pga_m_s2, gal=gal)
         return gettext(text, **values, factor=result.scale_factors[0].scale, pga=pga)
     text = N_("{name}: {moved} of {size} at scale factors {factors}; unscaled record: {alone}.")
