@@ -104,7 +104,7 @@ def intervals_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     if signs is None:
         raise ParameterError("`side` must be both, positive or negative, found {side!r}", side=side)
     # intervals of opposite sign cannot overlap, because the threshold is positive
-    intervals = np.concatenate([_intervals_one_sided(acceleration, dt, threshold, sign) for sign in signs])
+    intervals = np.concatenate([intervals_one_sided(acceleration, dt, np.array([threshold]), sign)[1] for sign in signs])
     result: FloatArray = intervals[intervals[:, 0].argsort()]
     return result
 
@@ -139,23 +139,48 @@ def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, sid
     return Duration(float(threshold), float(lengths.sum()), float(lengths.max(initial=0.0)), int(lengths.size))
 
 
-def _intervals_one_sided(values: FloatArray, dt: float, threshold: float, sign: float) -> FloatArray:
-    """Return the intervals, (k, 2), s, in which piecewise linear values times a sign reach the threshold, without those of length zero."""
-    # comparisons only: day-long records need no temporary row of their own size
-    is_above = values >= threshold if sign > 0.0 else values <= -threshold
-    rises = np.flatnonzero(~is_above[:-1] & is_above[1:])
-    falls = np.flatnonzero(is_above[:-1] & ~is_above[1:])
+def intervals_one_sided(values: FloatArray, dt: float, thresholds: FloatArray, sign: float) -> tuple[IntArray, FloatArray]:
+    """Return the intervals, s, in which piecewise linear values times a sign reach thresholds, without those of length zero.
 
-    def excess(samples: IntArray) -> FloatArray:
-        return sign * values[samples] - threshold
+    Parameters
+    ----------
+    values : (n,) array
+    dt : float, s
+    thresholds : (m,) array
+        Positive; infinite ones are never reached.
+    sign : float
+        +1 or -1.
 
+    Returns
+    -------
+    threshold : (k,) array of int
+        Number of the threshold of each interval, ascending.
+    intervals : (k, 2) array, s
+        Start and end, in chronological order for each threshold.
+    """
+    order = np.argsort(thresholds)
+    levels = thresholds[order]
+    # number of thresholds reached at each sample; one threshold needs no temporary row of floats, for day-long records
+    if levels.size == 1:
+        reached = (values >= levels[0] if sign > 0.0 else values <= -levels[0]).view(np.int8)
+    else:
+        reached = np.searchsorted(levels, sign * values, side="right")
+    changes = np.flatnonzero(reached[1:] != reached[:-1])
+    before, after = reached[changes].astype(np.int64), reached[changes + 1].astype(np.int64)
+    counts = np.abs(after - before)
+    # a step over several thresholds crosses each of them
+    first = np.cumsum(counts) - counts
+    samples = np.repeat(changes, counts)
+    crossed = np.arange(samples.size) + np.repeat(np.minimum(before, after) - first, counts)
     # zeros of the linear interpolant
-    starts = dt * (rises + excess(rises) / (excess(rises) - excess(rises + 1)))
-    ends = dt * (falls + excess(falls) / (excess(falls) - excess(falls + 1)))
+    excess, next_excess = sign * values[samples] - levels[crossed], sign * values[samples + 1] - levels[crossed]
+    times = dt * (samples + excess / (excess - next_excess))
     # intervals cut by the ends of the record
-    if is_above[0]:
-        starts = np.concatenate(([0.0], starts))
-    if is_above[-1]:
-        ends = np.concatenate((ends, [dt * (values.size - 1)]))
-    intervals = np.column_stack((starts, ends))
-    return intervals[intervals[:, 1] > intervals[:, 0]]
+    at_start, at_end = int(reached[0]), int(reached[-1])
+    times = np.concatenate((np.zeros(at_start), times, np.full(at_end, dt * (values.size - 1))))
+    index = order[np.concatenate((np.arange(at_start), crossed, np.arange(at_end)))]
+    # crossings of one threshold alternate between starts and ends
+    by_threshold = np.argsort(index, kind="stable")
+    intervals = times[by_threshold].reshape(-1, 2)
+    is_longer = intervals[:, 1] > intervals[:, 0]
+    return index[by_threshold][::2][is_longer], intervals[is_longer]

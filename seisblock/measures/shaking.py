@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -11,7 +12,7 @@ import numpy as np
 from seisblock.core.registry import get_solver
 from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
-from seisblock.measures.duration import Side, intervals_above
+from seisblock.measures.duration import intervals_one_sided
 from seisblock.measures.summary import MotionPeaks, conventions_of, motion_peaks
 from seisblock.records.motion import Motion
 
@@ -72,26 +73,46 @@ def shaking_of(motion: Motion, thresholds: tuple[float, float], *, peaks: Motion
     >>> shaking.threshold_m_s2, round(shaking.time_above_threshold_s, 12), round(shaking.longest_above_threshold_s, 12)
     (1.0, 0.15, 0.1)
     """
+    return shakings_of(motion, [thresholds], peaks=peaks)[0]
+
+
+def shakings_of(motion: Motion, thresholds: Sequence[tuple[float, float]], *, peaks: MotionPeaks | None = None) -> list[BodyShaking]:
+    """Return the shaking of a motion for several bodies, bit by bit as :func:`shaking_of` for each.
+
+    Examples
+    --------
+    >>> motion = Motion.from_arrays([0.0, 2.0, 0.0, -2.0, 0.0], 0.1)
+    >>> [shaking.threshold_m_s2 for shaking in shakings_of(motion, [(1.0, 1.5), (3.0, 2.0)])]
+    [1.0, 2.0]
+    """
     if peaks is None:
         peaks = motion_peaks(motion.horizontal, motion.dt, conventions_of(motion.record))
-    valid = [threshold for threshold in thresholds if 0.0 < threshold < math.inf]
-    if not valid:
-        return BodyShaking(*peaks, None, None, None)
-    lengths = _lengths_above(motion, thresholds) if peaks.pga_m_s2 >= min(valid) else np.zeros(0)
-    return BodyShaking(*peaks, float(min(valid)), float(lengths.sum()), float(lengths.max(initial=0.0)))
-
-
-def _lengths_above(motion: Motion, thresholds: tuple[float, float]) -> FloatArray:
-    """Return the lengths of all intervals above the threshold of their direction, s."""
-    sides: tuple[Side, Side] = ("negative", "positive")
-    intervals = [
-        intervals_above(motion.horizontal, motion.dt, threshold, side=side)
-        for threshold, side in zip(thresholds, sides, strict=True)
-        if 0.0 < threshold < math.inf
+    limits = np.array(thresholds, dtype=np.float64).reshape(-1, 2)
+    limits[~(limits > 0.0)] = np.inf
+    lowest = limits.min(axis=1, initial=np.inf)
+    limits[lowest > peaks.pga_m_s2] = np.inf
+    # a long motion has room for the work arrays of one threshold
+    parts = np.array_split(limits, len(limits)) if motion.is_long else [limits]
+    above = np.concatenate([_times_above(motion, part) for part in parts]) if len(limits) else limits
+    return [
+        BodyShaking(*peaks, threshold, total, longest) if threshold < math.inf else BodyShaking(*peaks, None, None, None)
+        for threshold, (total, longest) in zip(lowest.tolist(), above.tolist(), strict=True)
     ]
+
+
+def _times_above(motion: Motion, limits: FloatArray) -> FloatArray:
+    """Return the total and the longest time above the thresholds to +x and to -x of each body, (m, 2), s."""
+    sides = [intervals_one_sided(motion.horizontal, motion.dt, limits[:, side], sign) for side, sign in enumerate((-1.0, 1.0))]
+    bodies, intervals = (np.concatenate(part) for part in zip(*sides, strict=True))
+    order = np.argsort(bodies, kind="stable")
     # differences of interpolated times carry round-off
-    lengths: FloatArray = np.round(np.concatenate([part[:, 1] - part[:, 0] for part in intervals]), 15)
-    return lengths
+    lengths = np.round(intervals[order, 1] - intervals[order, 0], 15)
+    result = np.zeros((len(limits), 2))
+    rows, starts = np.unique(bodies[order], return_index=True)
+    # a sum of each slice: `np.add.reduceat` rounds otherwise
+    for row, first, last in zip(rows.tolist(), starts.tolist(), [*starts[1:].tolist(), lengths.size], strict=False):
+        result[row] = lengths[first:last].sum(), lengths[first:last].max()
+    return result
 
 
 def response_shaking(response: Response[Any], *, peaks: MotionPeaks | None = None) -> BodyShaking:
@@ -127,4 +148,4 @@ def body_thresholds(solver: str, body: Any, options: Any) -> tuple[float, float]
     return Thresholds(math.inf, math.inf) if threshold is None else threshold(body, options)
 
 
-__all__ = ["BodyShaking", "Thresholds", "body_thresholds", "response_shaking", "shaking_of", "transverse_shaking"]
+__all__ = ["BodyShaking", "Thresholds", "body_thresholds", "response_shaking", "shaking_of", "shakings_of", "transverse_shaking"]

@@ -17,8 +17,8 @@ from seisblock.bodies.toml import read_body_toml
 from seisblock.bodies.two_layer import Contact, two_layer_from_table
 from seisblock.cli import main
 from seisblock.core.registry import get_solver, solver_names
-from seisblock.measures import measure
-from seisblock.measures.shaking import Thresholds, body_thresholds, response_shaking, shaking_of, transverse_shaking
+from seisblock.measures import duration_above, measure
+from seisblock.measures.shaking import Thresholds, body_thresholds, response_shaking, shaking_of, shakings_of, transverse_shaking
 from seisblock.models.jump.options import JumpOptions
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rigid3d.options import Rigid3dOptions
@@ -292,3 +292,25 @@ def test_tables_print_a_line_per_direction(lang, text):
     result = CliRunner().invoke(main, ["slide", "--mu", "0.2", "--lang", lang], env={"COLUMNS": "200"})
     assert result.exit_code == 0
     assert result.stdout.count(text) == 2
+
+
+def test_shakings_of_many_bodies_equal_those_of_each():
+    """Thresholds of both sides, none, equal ones, and ones at and beyond the peak; the motion begins and ends above some of them."""
+    rng = np.random.default_rng(5)
+    for values in (np.round(3.0 * rng.normal(size=400)), np.convolve(rng.normal(size=3000), np.hanning(21), "same"), np.full(7, 2.0)):
+        motion = Motion.from_arrays(values, 0.01)
+        peak = float(np.abs(values).max())
+        thresholds = [
+            (math.inf, math.inf),
+            (peak, peak),
+            (1.0, 1.0),
+            (1.0, 2.0),
+            (-1.0, 1.0),
+            *(rng.uniform(0.01, 1.1 * peak, (40, 2)).tolist()),
+        ]
+        shakings = shakings_of(motion, thresholds)
+        assert shakings == [shaking_of(motion, pair) for pair in thresholds]
+        for (right, left), shaking in zip(thresholds[2:4], shakings[2:4], strict=True):
+            sides = duration_above(values, 0.01, right, side="negative"), duration_above(values, 0.01, left, side="positive")
+            assert shaking.time_above_threshold_s == pytest.approx(sum(side.total_s for side in sides), abs=1e-12)
+            assert shaking.longest_above_threshold_s == max(side.longest_s for side in sides)

@@ -6,11 +6,15 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.core.errors import ParameterError
 from seisblock.core.registry import SolverBody, get_solver
+from seisblock.dynamics.ensemble import EVENT_CAPACITY
 from seisblock.models.respond.batch import solve_runs
 from seisblock.models.respond.constants import X
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rock.options import RockOptions
+from seisblock.models.slide.options import SlideOptions
 from seisblock.records import Motion
 from seisblock.studies.batch.scalar_fields import scalar_fields
 from tests.studies.batch.conftest import shaking
@@ -71,6 +75,52 @@ def test_rows_equal_single_runs(solver, bodies, seed, peak, vertical):
                 assert {name: values[name] for name in expected} == expected
                 assert tuple(warnings) == tuple(single.warnings)
     assert falls == ({False} if peak < 3.0 else {False, True})
+
+
+def slide_bodies(one_way):
+    """Return objects on level ground and slopes, with and without a foot, with options that differ from body to body."""
+    for k in range(40):
+        mu = 0.03 + 0.02 * k
+        slope = 0.0 if k % 3 == 0 or one_way else (-1.0) ** k * min(0.05 * k, 1.0) * math.degrees(math.atan(mu))
+        base = SlidingBase(mu, mu * (0.5 if k % 4 == 1 else 1.0), slope, 0.05 * k if k % 2 and slope else None, one_way)
+        yield SolverBody(f"{k}", mu if k % 6 == 0 and not one_way else base, SlideOptions(vertical=(None, False, 0.5)[k % 3]))
+
+
+@pytest.mark.parametrize("one_way", [False, True])
+@pytest.mark.parametrize(("seed", "peak", "vertical"), [(0, 2.0, True), (1, 5.0, False), (3, 20.0, True)])
+def test_slide_rows_equal_single_runs(one_way, seed, peak, vertical):
+    """Every scalar and every warning; objects in flight, and those without a result, are left to their single run."""
+    model, ground, bodies = get_solver("slide"), motion(seed, peak, vertical=vertical), list(slide_bodies(one_way))
+    rows = model.solve_rows(bodies, ground)
+    outcomes = []
+    for body in bodies:
+        try:
+            single = model.solve(body.body, ground, **body.options.keywords())
+        except ParameterError:
+            assert body.name not in rows
+            continue
+        outcomes.append(single.outcome)
+        assert (body.name in rows) is not single.outcome.lifted_off
+        if body.name in rows:
+            values, warnings = rows[body.name]
+            assert values == vars(single.outcome)
+            assert tuple(warnings) == tuple(single.warnings)
+    assert {outcome.slips for outcome in outcomes} == ({True} if peak > 10.0 else {False, True})
+    assert len(rows) == len(bodies) or (peak > 10.0 and vertical)
+    assert any(outcome.reversals for outcome in outcomes) is not one_way
+    assert any(outcome.fell_off_slope for outcome in outcomes) is not one_way
+    assert one_way or any(outcome.slides_at_end for outcome in outcomes)
+
+
+def test_slide_rows_with_more_events_than_the_tables_hold():
+    """The path is that of the single run to the last bit, although the events come in portions."""
+    ground = Motion.from_arrays(5.0 * np.random.default_rng(7).normal(size=12001), 0.01)
+    bodies = [SolverBody(f"{mu}", SlidingBase(mu), SlideOptions()) for mu in (0.3, 0.4, 0.5, 0.6)]
+    rows = get_solver("slide").solve_rows(bodies, ground)
+    for body in bodies:
+        single = get_solver("slide").solve(body.body, ground)
+        assert len(single.events) > EVENT_CAPACITY // 2
+        assert rows[body.name][0] == vars(single.outcome)
 
 
 def test_rocking_after_record_continues_in_rows():

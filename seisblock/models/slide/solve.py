@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NoReturn
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 
@@ -155,7 +155,7 @@ def solve_slide(base: SlidingBase | float, motion: Motion, options: SlideOptions
     trajectory = integrate(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
     if trajectory.final_mode == UNDEFINED:
         raise_lift_off(motion, trajectory.end_time)
-    outcome = _outcome(trajectory, motion, p)
+    outcome = build_outcome(_slide_run(trajectory), motion.start_s, p)
     return Response(
         "slide",
         outcome,
@@ -166,7 +166,7 @@ def solve_slide(base: SlidingBase | float, motion: Motion, options: SlideOptions
         make_events(trajectory.events, motion.start_s, _event_name),
         replace(options, vertical=gains[UP]),
         Status(trajectory.status),
-        tuple(_warnings(outcome, motion)),
+        tuple(warnings(outcome, motion)),
         papers("sliding", *(("one-way sliding",) if base.one_way else ())),
     )
 
@@ -186,30 +186,76 @@ def raise_lift_off(motion: Motion, time: float) -> NoReturn:
     )
 
 
-def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> SlideOutcome:
-    """Return the outcome of a trajectory."""
+class SlideRun(NamedTuple):
+    """Numbers of a run; times in s after the first sample, NaN without an event.
+
+    Parameters
+    ----------
+    final : (n_states,) sequence
+        State at the end.
+    final_mode : int
+    extrema : (4,) sequence
+        Of the displacement: maximum, its time, minimum, its time.
+    first_event, last_event : float, s
+    slip_count, reversals : int
+    path_m : float, m
+    fell_off_slope, lifted_off : bool
+    """
+
+    final: Sequence[float]
+    final_mode: int
+    extrema: Sequence[float]
+    first_event: float
+    last_event: float
+    slip_count: int
+    reversals: int
+    path_m: float
+    fell_off_slope: bool
+    lifted_off: bool
+
+
+def _slide_run(trajectory: Trajectory) -> SlideRun:
+    """Return the numbers of a trajectory."""
     changes = trajectory.events
-    highest, highest_time, lowest, lowest_time = (float(value) for value in trajectory.extrema[0])
-    # the largest displacement of either sign
-    slip, time = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
     # passing the foot continues a slip
     start_modes = changes.source[(changes.guard != FOOT) & _is_sliding(changes.target)]
-    is_moving = trajectory.final_mode % LEVEL != STICK
-    rest_slip = slip_at_rest(trajectory.final.tolist(), trajectory.final_mode, p)
+    first, last = (changes[0].time, changes[-1].time) if changes else (math.nan, math.nan)
+    return SlideRun(
+        trajectory.final.tolist(),
+        trajectory.final_mode,
+        trajectory.extrema[SLIP].tolist(),
+        first,
+        last,
+        len(start_modes),
+        int(np.count_nonzero(_is_sliding(start_modes))),
+        path_length(trajectory),
+        bool(((changes.source < LEVEL) & (changes.target >= LEVEL)).any()),
+        bool((changes.target % LEVEL == FLIGHT).any()),
+    )
+
+
+def build_outcome(run: SlideRun, start_s: float, p: Sequence[float]) -> SlideOutcome:
+    """Return the outcome of a run of a motion that starts at `start_s`, s."""
+    highest, highest_time, lowest, lowest_time = run.extrema
+    # the largest displacement of either sign
+    slip, time = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
+    # any event begins with the end of stick
+    slips = not math.isnan(run.first_event)
+    is_moving = run.final_mode % LEVEL != STICK
+    rest_slip = slip_at_rest(run.final, run.final_mode, p)
     return SlideOutcome(
-        # any event begins with the end of stick
-        slips=bool(changes),
-        slip_start_s=motion.start_s + changes[0].time if changes else None,
-        slip_end_s=motion.start_s + changes[-1].time if changes and not is_moving else None,
+        slips=slips,
+        slip_start_s=start_s + run.first_event if slips else None,
+        slip_end_s=start_s + run.last_event if slips and not is_moving else None,
         max_slip_m=slip,
-        max_slip_time_s=motion.start_s + time,
-        residual_slip_m=float(trajectory.final[SLIP]),
+        max_slip_time_s=start_s + time,
+        residual_slip_m=run.final[SLIP],
         final_slip_m=rest_slip if math.isfinite(rest_slip) else None,
-        slip_count=len(start_modes),
-        reversals=int(np.count_nonzero(_is_sliding(start_modes))),
-        path_m=path_length(trajectory),
-        fell_off_slope=bool(((changes.source < LEVEL) & (changes.target >= LEVEL)).any()),
-        lifted_off=bool((changes.target % LEVEL == FLIGHT).any()),
+        slip_count=run.slip_count,
+        reversals=run.reversals,
+        path_m=run.path_m,
+        fell_off_slope=run.fell_off_slope,
+        lifted_off=run.lifted_off,
         slides_at_end=is_moving,
     )
 
@@ -220,7 +266,7 @@ def _is_sliding(modes: IntArray) -> BoolArray:
     return (kinds == FORWARD) | (kinds == BACKWARD)
 
 
-def _warnings(outcome: SlideOutcome, motion: Motion) -> list[Message]:
+def warnings(outcome: SlideOutcome, motion: Motion) -> list[Message]:
     """Return the warnings of a run."""
     name = motion.name or "x"
     messages = []

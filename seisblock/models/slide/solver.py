@@ -9,6 +9,7 @@ from seisblock.bodies.sliding_base import SlidingBase, sliding_base
 from seisblock.bodies.table import BodySpec
 from seisblock.core.registry import Solver, SolverBody, ValueMap, register
 from seisblock.models.slide.options import SlideOptions
+from seisblock.models.slide.rows import solve_slide_rows
 from seisblock.models.slide.solve import SlideOutcome, solve_slide
 
 
@@ -27,7 +28,7 @@ def _threshold(base: SlidingBase | float, options: SlideOptions) -> tuple[float,
     g (mu cos th + sin th)/(cos th - mu sin th), which is infinite where the denominator is not positive (derived here).
     """
     if isinstance(base, (int, float)):
-        base = SlidingBase(base)
+        return options.gravity * base, options.gravity * base
     forward, backward = (_slip_ratio(base.mu, slope) for slope in (base.angle, -base.angle))
     return options.gravity * forward, math.inf if base.one_way else options.gravity * backward
 
@@ -50,6 +51,8 @@ SOLVER = register(
         build_body=_build_body,
         event="slips",
         displacement="max_slip_m",
+        solve_rows=solve_slide_rows,
+        row_options=("vertical",),
         threshold=_threshold,
         describe="seisblock.models.slide.describe:describe",
         plot="seisblock.models.slide.plot:figure",

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from functools import cached_property
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from seisblock.core.registry import SolverBody
-from seisblock.measures.shaking import BodyShaking, body_thresholds, shaking_of
-from seisblock.measures.summary import MotionPeaks, conventions_of, motion_peaks
+from seisblock.measures.shaking import BodyShaking, body_thresholds, shakings_of
 from seisblock.records import Motion
 from seisblock.records.seismic_intensity import jma_intensity
 from seisblock.studies.batch.scalar_fields import scalar_fields
@@ -20,34 +18,26 @@ BODY_COLUMNS: Mapping[str, type] = {"width_m": float, "height_m": float, "mu": f
 """Columns of the body with their types, empty where it has no such value."""
 
 
-class ShakingColumns:
-    """Shaking columns of the bodies of a solver under one motion, whose peaks are computed once.
+def shaking_columns(solver: str, bodies: Sequence[SolverBody], motion: Motion) -> list[dict[str, Any]]:
+    """Return the shaking columns of bodies aligned with a motion, in their order.
 
     Parameters
     ----------
     solver : str
+    bodies : sequence of SolverBody
     motion : Motion
     """
-
-    def __init__(self, solver: str, motion: Motion) -> None:
-        self.solver, self.motion = solver, motion
-
-    @cached_property
-    def _peaks(self) -> MotionPeaks:
-        return motion_peaks(self.motion.horizontal, self.motion.dt, conventions_of(self.motion.record))
-
-    @cached_property
-    def _jma_intensity(self) -> float | None:
-        return None if self.motion.record is None else jma_intensity(self.motion.record)
-
-    def row(self, body: SolverBody) -> dict[str, Any]:
-        """Return the columns of a body aligned with the motion."""
-        shaking = shaking_of(self.motion, body_thresholds(self.solver, body.body, body.options), peaks=self._peaks)
-        contact = getattr(body.options, "contact", body.options)
-        return {
-            "jma_intensity": self._jma_intensity,
+    if not bodies:
+        return []
+    intensity = None if motion.record is None else jma_intensity(motion.record)
+    shakings = shakings_of(motion, [body_thresholds(solver, body.body, body.options) for body in bodies])
+    return [
+        {
+            "jma_intensity": intensity,
             **vars(shaking),
             "width_m": getattr(body.body, "width", None),
             "height_m": getattr(body.body, "height", None),
-            "mu": getattr(contact, "mu", None),
+            "mu": getattr(getattr(body.options, "contact", body.options), "mu", None),
         }
+        for body, shaking in zip(bodies, shakings, strict=True)
+    ]

@@ -22,7 +22,7 @@ from seisblock.records.qc_report import qc_summary, require_clean
 from seisblock.records.site import matches_station
 from seisblock.studies.batch.probability import LEFT_OUT, probability_columns
 from seisblock.studies.batch.scalar_fields import scalar_fields
-from seisblock.studies.batch.shaking import ShakingColumns
+from seisblock.studies.batch.shaking import shaking_columns
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
 from seisblock.studies.batch.worst_azimuth import is_all_azimuths
 from seisblock.studies.solvers import solver_studies
@@ -196,15 +196,21 @@ def _component_rows(record: Record, name: str, plan: Plan, columns: Row, doubts:
     except SeisblockError as error:
         yield {**columns, "component": name, REASON: error.message}
         return
-    shaking = ShakingColumns(plan.solver, motion)
     bodies = [_align(body, motion, plan.model) for body in plan.bodies]
+    for body, row in zip(bodies, _result_rows(bodies, motion, plan, doubts), strict=True):
+        yield {**columns, "component": motion.name, "body": body.name, **row}
+
+
+def _result_rows(bodies: Sequence[SolverBody | RejectedBody], motion: Motion, plan: Plan, doubts: Sequence[str]) -> Iterator[Row]:
+    """Yield the result of each body under one motion, or the reason of its failure."""
     vectorized = solve_vectorized(plan.model, [body for body in bodies if isinstance(body, SolverBody)], motion)
-    for body in bodies:
-        row = {**columns, "component": motion.name, "body": body.name}
-        if isinstance(body, RejectedBody):
-            yield {**row, REASON: body.reason}
-        else:
-            yield {**row, **_result_row(shaking, body, plan, doubts, vectorized.get(body.name))}
+    rows = [
+        {REASON: body.reason} if isinstance(body, RejectedBody) else _outcome_row(body, motion, plan, doubts, vectorized.get(body.name))
+        for body in bodies
+    ]
+    solved = [body for body, row in zip(bodies, rows, strict=True) if isinstance(body, SolverBody) and REASON not in row]
+    shaking = iter(shaking_columns(plan.solver, solved, motion))
+    return (row if REASON in row else {**row, **next(shaking)} for row in rows)
 
 
 def _align(body: SolverBody | RejectedBody, motion: Motion, solver: Solver) -> SolverBody | RejectedBody:
@@ -235,13 +241,13 @@ def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Pl
         **row,
         "component": motion.name,
         **direction_counts,
-        **_result_row(ShakingColumns(plan.solver, motion), aligned, plan, [*doubts, *remarks]),
+        **next(_result_rows([aligned], motion, plan, [*doubts, *remarks])),
     }
 
 
-def _result_row(shaking: ShakingColumns, body: SolverBody, plan: Plan, doubts: Sequence[str], result: RowResult | None = None) -> Row:
-    """Return the result of one body under one motion, solved now unless it is given, or the reason of its failure."""
-    model, motion = plan.model, shaking.motion
+def _outcome_row(body: SolverBody, motion: Motion, plan: Plan, doubts: Sequence[str], result: RowResult | None) -> Row:
+    """Return the outcome of one body under one motion, solved now unless it is given, or the reason of its failure."""
+    model = plan.model
     try:
         if result is None:
             response = model.solve(body.body, motion, **body.options.keywords())
@@ -255,7 +261,7 @@ def _result_row(shaking: ShakingColumns, body: SolverBody, plan: Plan, doubts: S
     left_out = chance.pop(LEFT_OUT, None)
     messages = [*doubts, *warnings, *([] if left_out is None else [left_out])]
     scalars = {name: _to_plain(outcome[name], kind) for name, kind in scalar_fields(model.outcome).items()}
-    return {**scalars, **shaking.row(body), **chance, WARNINGS: "; ".join(messages) or None}
+    return {**scalars, **chance, WARNINGS: "; ".join(messages) or None}
 
 
 def _to_plain(value: Any, kind: type) -> Any:
