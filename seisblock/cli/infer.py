@@ -20,7 +20,7 @@ from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, displaced_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, LENGTH, MU, Count
+from seisblock.cli.types import LENGTH, MU, PEAK_UNITS, Count, Quantities
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_RUNS
@@ -96,7 +96,7 @@ TWIST_OPTIONS = (
 )
 @option(
     "--frequency",
-    type=FLOATS,
+    type=Quantities(PEAK_UNITS["HZ"]),
     metavar="HZ",
     help="Stones: equivalent frequency, Hz; number, list or range. [default: mean over 0.5-3 Hz, and 0.5, 1 ... 3]",
 )

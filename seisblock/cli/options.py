@@ -12,9 +12,10 @@ import click
 
 from seisblock.cli import shell_completion
 from seisblock.cli.command import Decorator, add_options, argument, option
+from seisblock.cli.console import warning
 from seisblock.cli.output import DPI, SLOW, OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import JMA, SIZE, STOREY, WINDOW, FormatType
+from seisblock.cli.types import JMA, PEAK_UNITS, SIZE, STOREY, WINDOW, FormatType
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
@@ -76,6 +77,17 @@ def check_callback(check: Callable[[str, float], float]) -> Callable[[click.Cont
 
 _positive, _nonzero = check_callback(checks.positive), check_callback(checks.nonzero)
 
+LEAST_PGA_GAL = 3.0
+"""PGA below which a warning asks for the unit, gal: no object moves, and the number was probably meant in g or m/s^2."""
+
+
+def _peak(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
+    """Return a positive peak or frequency; warn of a PGA that is probably not in gal."""
+    value = _positive(ctx, param, value)
+    if value is not None and param.metavar == "GAL" and value < LEAST_PGA_GAL:
+        warning("{flag}: {value:.4g} gal moves no object: check the unit (400gal, 4m/s2 or 0.4g)", flag=param.opts[0], value=value)
+    return value
+
 
 def _split_components(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...]:
     """Split repeated and comma-separated components; raise an error for an empty list."""
@@ -98,8 +110,8 @@ _RECORD_OPTIONS = (
     option("--scale", type=float, callback=_nonzero, section="Record", help="Scale factor on all components. [default: 1]"),
     option(
         "--target-pga",
-        type=float,
-        callback=_positive,
+        type=PEAK_UNITS["GAL"],
+        callback=_peak,
         metavar="GAL",
         section="Record",
         help="Largest PGA of the components under analysis after scaling, gal; taken over the whole record, before --floor and --window.",
@@ -288,7 +300,7 @@ def preparation_options(function: Function) -> Function:
 
 def peak_option(flag: str, metavar: str, text: str) -> Decorator:
     """Return the option of a positive peak, or frequency, of the motion, with the given help text."""
-    return option(flag, type=float, callback=_positive, metavar=metavar, section="Record", help=text)
+    return option(flag, type=PEAK_UNITS[metavar], callback=_peak, metavar=metavar, section="Record", help=text)
 
 
 peak_options = add_options(

@@ -19,7 +19,7 @@ from seisblock.cli.options import Source, check_callback, curve_record_options, 
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, LENGTH, Count
+from seisblock.cli.types import LENGTH, PEAK_UNITS, Count, Quantities
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.i18n import N_, gettext, lazy_gettext
@@ -82,14 +82,21 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     section="Body",
     help="Width of stones without a width in the file, m or with a unit. [default: 8sun]",
 )
-@option("--pga", type=FLOATS, metavar="GAL", help="Without RECORD: peak ground acceleration, gal; number, list or range.")
+@option(
+    "--pga", type=Quantities(PEAK_UNITS["GAL"]), metavar="GAL", help="Without RECORD: peak ground acceleration, gal; number, list or range."
+)
 @option(
     "--frequency",
-    type=FLOATS,
+    type=Quantities(PEAK_UNITS["HZ"]),
     metavar="HZ",
     help="Frequency, Hz; number, list or range. With RECORD: instead of its equivalent frequency.",
 )
-@option("--pgv", type=FLOATS, metavar="KINE", help="Without RECORD: PGV, kine, with --pga instead of --frequency; number, list or range.")
+@option(
+    "--pgv",
+    type=Quantities(PEAK_UNITS["KINE"]),
+    metavar="KINE",
+    help="Without RECORD: PGV, kine, with --pga instead of --frequency; number, list or range.",
+)
 @option("--paired", is_flag=True, help="Take --pga and --frequency (or --pgv) in pairs instead of all combinations; lists of equal length.")
 @option(
     "--equivalent",

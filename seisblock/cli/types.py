@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -18,7 +18,17 @@ from seisblock.core.format_names import format_names
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.jma_scale import parse_jma_intensity
 from seisblock.core.limits import MAX_JOINT_POINTS, MAX_VALUES, check_limit
-from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_mass, to_halfwidth
+from seisblock.core.units import (
+    ACCELERATION_UNITS,
+    GAL,
+    KINE,
+    LENGTH_UNITS,
+    VELOCITY_UNITS,
+    FigureSize,
+    parse_length,
+    parse_mass,
+    to_halfwidth,
+)
 from seisblock.records.floor import parse_storey
 
 MIN_SIDE, MAX_SIDE = 0.04, 1.2
@@ -145,6 +155,29 @@ class ShareType(Finite):
         return round(super().convert(text[:-1], param, ctx) / 100.0, 15)
 
 
+class FloatWithUnit(Finite):
+    """Number in a default unit, or with its unit: ``400``, ``400gal``, ``0.4g``.
+
+    Parameters
+    ----------
+    units : mapping of str to float
+        Values of the admissible units in SI.
+    default : float
+        Value of the default unit.
+    """
+
+    def __init__(self, units: Mapping[str, float], default: float) -> None:
+        self._units, self._default = units, default
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number in the default unit."""
+        text = to_halfwidth(value).strip().lower() if isinstance(value, str) else ""
+        units = [unit for unit in self._units if text.endswith(unit) and text.removesuffix(unit).rstrip()[-1:] in "0123456789."]
+        if units:
+            return round(super().convert(text.removesuffix(units[0]), param, ctx) * self._units[units[0]] / self._default, 12)
+        return super().convert(value, param, ctx)
+
+
 class Floats(click.ParamType):  # type: ignore[type-arg]
     """One number, a list ``a,b,c``, or a range ``first:last:step`` that includes its last value."""
 
@@ -199,7 +232,7 @@ class Shares(Floats):
 class Quantities(Floats):
     """Numbers with units as :class:`Floats`; the type of one value words its errors."""
 
-    def __init__(self, item: Parsed[float]) -> None:
+    def __init__(self, item: Parsed[float] | FloatWithUnit) -> None:
         self.item = item
 
     def _number(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> float:
@@ -289,6 +322,13 @@ STOREY = Parsed("storey", lambda text, _: parse_storey(text))
 
 JMA = Parsed("intensity", lambda text, _: parse_jma_intensity(text))
 """JMA intensity: ``6+``, ``5弱`` or a number."""
+
+PEAK_UNITS = {
+    "GAL": FloatWithUnit(ACCELERATION_UNITS, GAL),
+    "KINE": FloatWithUnit(VELOCITY_UNITS, KINE),
+    "HZ": FloatWithUnit({"hz": 1.0}, 1.0),
+}
+"""Types of PGA, PGV and frequency by the default unit in the help."""
 
 FLOATS = Floats()
 LENGTHS = Quantities(LENGTH)

@@ -1,6 +1,7 @@
 """Numbers as people write them: per cent in a friction, full-width letters in lengths; and what an azimuth is written as."""
 
 import json
+import re
 
 import pytest
 from click.testing import CliRunner
@@ -30,6 +31,33 @@ def test_mu_range_accepts_percent():
     assert [item["mu"] for item in content["results"]] == [0.05, 0.1, 0.15, 0.3]
     result = CliRunner().invoke(main, ["slide", "--mu", "x%"])
     assert result.exit_code == 2 and "Traceback" not in result.output
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["criteria", "--block", "gravestone", "--pga", "400gal", "--pgv", "0.4m/s"],
+        ["criteria", "--block", "gravestone", "--pga", "４ m/s2", "--pgv", "40 kine"],
+        ["overturn-rate", "--cemetery", "aoyama.csv", "--pga", "300gal:4m/s2:100gal", "--frequency", "1.5Hz"],
+        ["criteria", "--block", "gravestone", "elcentro_1940_ns", "--target-pga", "400gal"],
+    ],
+)
+def test_peaks_accept_units(words):
+    """A unit was refused in --pga, --pgv, --frequency and --target-pga, but required in --threshold."""
+    bare = [re.sub(r"^４ m/s2|400gal$", "400", word) for word in words]
+    bare = ["300:400:100" if ":" in word else re.sub(r"^(0\.4m/s|40 kine)$", "40", word).replace("Hz", "") for word in bare]
+    assert bare != words
+    assert answer(*words)["results"] == answer(*bare)["results"]
+
+
+def test_peaks_in_other_units_are_refused_or_doubted():
+    """``--pga 0.4``, meant in g, was computed as 0.4 gal without a word."""
+    words = ["criteria", "--block", "gravestone", "--pgv", "40"]
+    result = CliRunner().invoke(main, [*words, "--pga", "400furlong"])
+    assert result.exit_code == 2 and "'400furlong' is not a valid float" in result.stderr
+    result = CliRunner().invoke(main, [*words, "--pga", "0.4"])
+    assert "--pga: 0.4 gal moves no object: check the unit" in result.stderr
+    assert "check the unit" not in CliRunner().invoke(main, [*words, "--pga", "0.4g"]).stderr
 
 
 def test_lengths_accept_full_width_characters():

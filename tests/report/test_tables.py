@@ -83,3 +83,15 @@ def test_table_without_headings_begins_with_its_first_row():
     """`body` printed two blank lines and a rule above its list of properties."""
     first, *_ = (line for line in terminal_lines(table("", ["", ""], [["volume (m³)", 1.0]])) if line.strip())
     assert first.split()[0] == "volume"
+
+
+def test_columns_move_together_before_cells_wrap():
+    """At 80 columns the class of every station and object took two lines, with three blanks between the columns."""
+    rows = table("", ["a", "b", "c"], [["first", "likely over", "3"]])
+    lines = {width: [line.strip() for line in terminal_lines(rows, width=width)[3:] if line.strip()] for width in (25, 23, 21, 20)}
+    assert lines == {
+        25: ["first   likely over   3"],
+        23: ["first  likely over  3"],
+        21: ["first likely over 3"],
+        20: ["first    likely  3", "over"],
+    }

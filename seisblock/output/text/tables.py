@@ -85,7 +85,7 @@ def _with_title(title: str, body: Any, caption: str) -> Group:
 
 
 def _table(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:
-    result = Table(box=SIMPLE_HEAD, pad_edge=False, show_header=any(columns))
+    result = _Table(box=SIMPLE_HEAD, pad_edge=False, show_header=any(columns))
     for index, heading in enumerate(columns):
         result.add_column(escape_control(heading), justify="left" if index == 0 else "right", overflow="fold")
     for row in rows:
@@ -93,6 +93,19 @@ def _table(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:
             *(cell if isinstance(cell, Text) else styled_line(cell if isinstance(cell, str) else format_number(cell)) for cell in row)
         )
     return result
+
+
+class _Table(Table):
+    """Table whose columns move together where it would not fit the terminal otherwise: 3, 2 or 1 blanks between cells."""
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        unbound = options.update_width(UNBOUNDED_WIDTH)
+        # where cells wrap in any case, 2 blanks
+        for padding in ((0, 1), (0, 1, 0, 0), (0, 0), (0, 1, 0, 0)):
+            self.padding = padding
+            if Measurement.get(console, unbound, self).maximum <= options.max_width:
+                break
+        return super().__rich_console__(console, options)
 
 
 class _SplitTable:
