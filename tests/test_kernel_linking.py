@@ -7,6 +7,7 @@ import time
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -62,6 +63,54 @@ def test_kernel_links_unoptimised_callees(chain):
     assert fall._callee is None
     # a callee can be called from Python as well, and is then compiled for it
     assert lean(1.0, 0.5) == 0.75
+
+
+class Pair(NamedTuple):
+    """Two arrays, as the layout of a pile has them."""
+
+    first: np.ndarray
+    second: np.ndarray
+
+
+VECTOR = _t.Array(_t.float64, 1, "C")
+PAIR = _t.NamedUniTuple(VECTOR, 2, Pair)
+
+
+def kernels_of_tuples(kernel):
+    """Return a kernel that passes named tuples on: its argument, one that it makes, one of two, one that is an argument no longer."""
+
+    @kernel(_t.float64(PAIR, PAIR))
+    def fill(pair, other):
+        pair.first[0] += 1.0
+        return 10.0 * pair.first[0] + other.second[0] + pair.second[1]
+
+    @kernel(_t.float64(PAIR, PAIR, _t.boolean))
+    def outer(pair, other, is_swapped):
+        swapped = Pair(pair.second, other.first)
+        selected = pair if is_swapped else other
+        alias = pair
+        result = fill(pair, other) + 1e2 * fill(swapped, pair) + 1e4 * fill(selected, alias) + 1e6 * fill(pair, pair)
+        other = swapped
+        return result + 1e8 * fill(other, pair) + 1e10 * len(pair.first)
+
+    @kernel(_t.float64(PAIR, PAIR, _t.boolean))
+    def entry(pair, other, is_swapped):
+        return outer(pair, other, is_swapped) + fill(other, pair)
+
+    return fill, entry
+
+
+@pytest.mark.parametrize("is_swapped", [False, True])
+def test_kernels_pass_named_tuples_by_address(monkeypatch, is_swapped):
+    """Results as in Python, whatever tuple a variable stands for; the callee gets addresses, not the fields of the arrays."""
+    monkeypatch.setattr(_jit.cache, "load_or_compile", lambda compile_kernel, function: compile_kernel(cache=False))
+    (fill, entry), (_, plain) = kernels_of_tuples(_jit.kernel), kernels_of_tuples(lambda _: lambda function: function)
+    actual, expected = np.arange(8.0).reshape(4, 2), np.arange(8.0).reshape(4, 2)
+    assert entry(Pair(*actual[:2]), Pair(*actual[2:]), is_swapped) == plain(Pair(*expected[:2]), Pair(*expected[2:]), is_swapped)
+    assert (actual == expected).all()
+    library = fill._callee.overloads[PAIR, PAIR].library
+    (function,) = (f for f in library._final_module.functions if not f.is_declaration and "fill" in f.name)
+    assert [str(argument.type) for argument in function.arguments] == ["ptr"] * 4
 
 
 def test_kernel_links_a_complete_callee_as_it_is(chain):

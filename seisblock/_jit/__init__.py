@@ -27,7 +27,7 @@ def types() -> Any:
 def kernel(signature: Any, *, inline: bool = False) -> Callable[[Function], Function]:
     """Compile a function on first use for one explicit signature, cached, without the GIL and without ``fastmath``.
 
-    `inline` asks LLVM to inline the kernel into its callers: eight calls with named tuples of arrays cost 0.3 us. A kernel creates no
+    `inline` has LLVM inline the kernel into its callers (``stack``: 10 % faster, many blocks of ``rock``: a third). A kernel creates no
     arrays: references are not counted, which would cost a short kernel 30 to 60 ns per call.
     """
     # error_model numpy: division by zero gives inf or NaN, without a test at each division

@@ -24,6 +24,18 @@ class KernelLower(Lower):  # type: ignore[misc]
     Numba copies the descriptor of an array to memory for each item: to write, parse and optimise this takes longer than all arithmetic.
     """
 
+    def extract_function_arguments(self) -> Any:
+        """Return the arguments; store named tuples, whose addresses are passed on."""
+        super().extract_function_arguments()
+        tuples = (k for k, kind in enumerate(self.fndesc.argtypes) if _is_by_address(kind))
+        self.function.tuples = {k: cgutils.alloca_once_value(self.builder, self.fnargs[k]) for k in tuples}
+        return self.fnargs
+
+    def loadvar(self, name: str) -> Any:
+        """Load a variable, or a named tuple from the address that the function got."""
+        address = self._tuple_address(name)
+        return super().loadvar(name) if address is None else self.builder.load(address)
+
     def lower_getitem(self, resty: Any, expr: Any, value: Any, index: Any, signature: Any) -> Any:
         """Load an item or view a row; other containers and slices are left to numba."""
         address = self._address(value.name, index.name)
@@ -52,7 +64,9 @@ class KernelLower(Lower):  # type: ignore[misc]
         return self.context.pack_value(self.builder, array.dtype, value, address)
 
     def lower_inst(self, inst: Any) -> Any:
-        """Store an item of an array at constants, for which numba would first look for a special function."""
+        """Store an item of an array at constants, for which numba would first look for a special function; copy no argument."""
+        if isinstance(inst, ir.Assign) and self._tuple_address(inst.target.name) is not None:
+            return None
         if isinstance(inst, ir.StaticSetItem) and isinstance(self.typeof(inst.target.name), types.Array):
             return self.lower_setitem(inst.target, inst.index_var, inst.value, self.fndesc.calltypes[inst])
         return super().lower_inst(inst)
@@ -63,6 +77,9 @@ class KernelLower(Lower):  # type: ignore[misc]
         if operation == "binop" and expr.fn in _ARITHMETIC and self.fndesc.calltypes[expr].args == _TWO_NUMBERS:
             numbers = [self.context.cast(builder, self.loadvar(x.name), self.typeof(x.name), types.float64) for x in (expr.lhs, expr.rhs)]
             return self.context.cast(builder, getattr(builder, _ARITHMETIC[expr.fn])(*numbers), types.float64, resty)
+        if operation == "getattr" and (address := self._tuple_address(expr.value.name)) is not None:
+            field = self.typeof(expr.value.name).fields.index(expr.attr)
+            return builder.load(cgutils.gep_inbounds(builder, address, 0, field))
         kind = self.typeof(expr.value.name) if operation in ("static_getitem", "getiter", "iternext", "pair_first", "pair_second") else None
         if isinstance(kind, types.Array):
             return self.lower_getitem(resty, expr, expr.value, expr.index_var, self.fndesc.calltypes[expr])
@@ -90,6 +107,11 @@ class KernelLower(Lower):  # type: ignore[misc]
     def alloca_lltype(self, name: str, lltype: Any, datamodel: Any = None) -> Any:
         """Allocate a variable; numba would also ask LLVM for its size, for debuggers."""
         return cgutils.alloca_once(self.builder, lltype, name=name, zfill=False)
+
+    def _tuple_address(self, name: str) -> Any:
+        """Return the address of the argument, a named tuple, that a variable stands for; None for other variables."""
+        definition = guard(get_definition, self.func_ir, name)
+        return self.function.tuples.get(definition.index) if isinstance(definition, ir.Arg) else None
 
     def _extract(self, kind: Any, value: Any, name: str, *axis: int) -> Any:
         """Return a field of a structure, or one of its items."""
@@ -121,9 +143,10 @@ class KernelLower(Lower):  # type: ignore[misc]
 
 
 class CalleeLower(KernelLower):
-    """Lowering of a kernel that only kernels call: arrays and tuples are passed whole.
+    """Lowering of a kernel that only kernels call: arrays are passed whole, named tuples of arrays by address.
 
-    Numba passes each of their fields and puts them together again, which were 40 % of all LLVM instructions of ``stack``.
+    Numba passes each of their fields and puts them together again, which were 40 % of all LLVM instructions of ``stack``; tuples passed
+    whole, 300 numbers, took a third of its time.
     """
 
     def setup_function(self, fndesc: Any) -> None:
@@ -136,6 +159,7 @@ class CalleeLower(KernelLower):
     def extract_function_arguments(self) -> Any:
         """Return the arguments, which follow the addresses of the result and of an exception."""
         self.fnargs = self.function.args[2:]
+        self.function.tuples = {k: self.fnargs[k] for k, kind in enumerate(self.fndesc.argtypes) if _is_by_address(kind)}
         return self.fnargs
 
 
@@ -145,6 +169,9 @@ def call_kernel(fndesc: Any, libraries: Any) -> Any:
     def implementation(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         function = _declare(context, builder.module, fndesc)
         result = cgutils.alloca_once(builder, function.args[0].type.pointee)
+        arguments = [
+            _address(builder, value) if _is_by_address(kind) else value for kind, value in zip(fndesc.argtypes, arguments, strict=True)
+        ]
         code = builder.call(function, [result, builder.function.args[1], *arguments])
         with cgutils.if_unlikely(builder, builder.icmp_signed("!=", code, code.type(0))):
             builder.ret(code)
@@ -155,13 +182,29 @@ def call_kernel(fndesc: Any, libraries: Any) -> Any:
 
 
 def _declare(context: Any, module: Any, fndesc: Any) -> Any:
-    """Declare a kernel that takes its arguments whole."""
+    """Declare a kernel with arguments as :class:`CalleeLower` takes them."""
     plain = context.call_conv.get_function_type(fndesc.restype, ())
-    kind = llvm.FunctionType(plain.return_type, [*plain.args, *map(context.get_value_type, fndesc.argtypes)])
-    function = cgutils.get_or_insert_function(module, kind, fndesc.mangled_name)
+    kinds = [context.get_value_type(kind) for kind in fndesc.argtypes]
+    passed = [kind.as_pointer() if _is_by_address(name) else kind for name, kind in zip(fndesc.argtypes, kinds, strict=True)]
+    function = cgutils.get_or_insert_function(module, llvm.FunctionType(plain.return_type, [*plain.args, *passed]), fndesc.mangled_name)
+    for argument, kind in zip(function.args[2:], fndesc.argtypes, strict=True):
+        if _is_by_address(kind):
+            argument.add_attribute("noalias")
     if fndesc.inline:
         function.attributes.add("alwaysinline")
     return function
+
+
+def _is_by_address(kind: Any) -> bool:
+    """Return True for named tuples, which have up to 300 fields."""
+    return isinstance(kind, types.BaseNamedTuple)
+
+
+def _address(builder: Any, value: Any) -> Any:
+    """Return the address of a named tuple: that of an argument, or of a copy."""
+    if isinstance(value, llvm.instructions.LoadInstr) and value.operands[0] in builder.function.tuples.values():
+        return value.operands[0]
+    return cgutils.alloca_once_value(builder, value)
 
 
 def _tuple_of(index: Any) -> tuple[Any, ...]:
