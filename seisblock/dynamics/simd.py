@@ -15,6 +15,7 @@ from seisblock.dynamics.buffers import (
     AT_REST,
     BATCH_FORCING,
     BATCH_STATE,
+    N_EVENTS,
     OUTPUT,
     SAMPLE,
     SAMPLES_AFTER,
@@ -80,6 +81,7 @@ def integrate_in_lanes(
                 # one sample interval by the engine, then back to the stride
                 counters = rows.counters[lane_row]
                 counters[STEPS_LEFT] = 1
+                events_before = counters[N_EVENTS]
                 rows.statuses[lane_row] = advance(
                     series,
                     reset,
@@ -105,8 +107,9 @@ def integrate_in_lanes(
                 segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= last
                 if rows.statuses[lane_row] != PAUSED or segment_done:
                     lane_rows[lane] = -1
-                # a trajectory at rest stays with the engine, whose skip passes many samples at once
-                elif counters[AT_REST] == 0:
+                # a trajectory at rest stays with the engine, whose skip passes many samples at once; so does one after an event, which
+                # others often follow in the next sample
+                elif counters[AT_REST] == 0 and counters[N_EVENTS] == events_before:
                     running = True
                     break
         if running:

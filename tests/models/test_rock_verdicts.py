@@ -12,8 +12,9 @@ from seisblock.dynamics import integrate_many
 from seisblock.models.rock import rock_params, rock_verdict, rock_verdicts, solve_rock
 from seisblock.models.rock.model import REST, parameters
 from seisblock.models.rock.options import RockOptions
-from seisblock.models.rock.params import rock_batch_params
+from seisblock.models.rock.params import RockBatchParams, rock_batch_params
 from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
+from seisblock.models.rock.verdicts import rock_overturned
 from seisblock.records import Component, Motion, Record, motion_of
 from seisblock.studies.rocking.verdicts import overturns_at, parallel_verdicts
 
@@ -117,3 +118,40 @@ def test_rock_verdicts_without_short_hops_are_equal():
         for hop in ((), (1e-3,))
     ]
     assert events[1].sum() < 0.6 * events[0].sum()
+
+
+def test_runs_that_end_early_overturn_as_whole_ones():
+    """Two unequal corners, three rows of motion, at whose end the shaking is over or strong."""
+    rng = np.random.default_rng(11)
+    time = 0.01 * np.arange(3000)
+    overturned = 0
+    for centre, length in ((8.0, 4.0), (20.0, 6.0), (30.0, 10.0)):
+        rows = np.array([np.convolve(rng.normal(size=time.size), np.hanning(25), "same") for _ in range(3)])
+        rows *= np.exp(-(((time - centre) / length) ** 2)) * np.array([[1.0], [0.7], [0.5]]) * 6.0 / np.abs(rows[0]).max()
+        motion = Motion(rows, 0.01)
+        alphas = rng.uniform(0.1, 0.35, (300, 1)) * rng.uniform(0.8, 1.2, (300, 2))
+        levers = rng.uniform(0.3, 3.0, (300, 1)) * rng.uniform(0.8, 1.2, (300, 2))
+        params = RockBatchParams(alphas, levers, 1.0 - 1.2 * np.sin(alphas) ** 2, False, 1.0, 9.80665)
+        azimuths = rng.uniform(-0.5, 0.5, 300)
+        gains = np.column_stack([np.cos(azimuths), -np.sin(azimuths), np.ones(300)])
+        expected = rock_verdicts(params, motion, gains).overturned
+        assert np.array_equal(rock_overturned(params, motion, gains), expected)
+        overturned += int(expected.sum())
+    assert 200 < overturned < 700
+
+
+def test_runs_that_end_early_overturn_as_whole_ones_near_the_bound():
+    """Short strong pulses of either sign, which give a block nearly all of the energy that the bound allows, some of it beyond alpha."""
+    rng = np.random.default_rng(12)
+    overturned = 0
+    for _ in range(20):
+        row = np.zeros(1500)
+        for start in (200, *range(300, 1400, 60)):
+            row[start : start + 5] = rng.choice([-1.0, 1.0]) * rng.uniform(1.0, 3.0) * (6.0 if start == 200 else 1.5)
+        motion = Motion.from_arrays(row, 0.01)
+        alphas, levers = np.full((300, 2), 0.15), rng.uniform(0.02, 1.0, (300, 1)) ** 2 * 20.0 * np.ones(2)
+        params = RockBatchParams(alphas, levers, np.full((300, 2), 0.95), False, 0.0, 9.80665)
+        expected = rock_verdicts(params, motion, np.eye(3)[:1]).overturned
+        assert np.array_equal(rock_overturned(params, motion, np.tile([1.0, 0.0, 0.0], (300, 1))), expected)
+        overturned += int(expected.sum())
+    assert 1000 < overturned < 5600

@@ -11,7 +11,8 @@ from seisblock.bodies.block import LEFT, RIGHT, Block
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
-from seisblock.dynamics import integrate, integrate_many
+from seisblock.dynamics import Instant, integrate, integrate_many
+from seisblock.dynamics.events import BEGINNING
 from seisblock.models.rock import model
 from seisblock.models.rock.free_rocking import ENDLESS, STANDS, raise_if_endless, trace_free_rocking_batch
 from seisblock.models.rock.options import RockOptions
@@ -142,3 +143,64 @@ def rock_verdicts(
     # a run without a result counts neither as overturned nor as stable
     endings[gave_up] = STANDS
     return Verdicts(endings != STANDS, np.where(gave_up, np.nan, np.maximum(to_right, to_left)), endings, overturning_times, gave_up)
+
+
+SAFETY = 0.99
+"""Share of the potential barrier below which a block stands for certain: round-off is far smaller than the rest."""
+
+STOPS = (0.9, 0.7, 0.5, 0.3, 0.1)
+"""Rest of the motion, as a share of the barrier of a typical block, at which runs are examined."""
+
+
+def rock_overturned(params: RockBatchParams, motion: Motion, gains: FloatArray, *, min_hop: float = model.REST_HOP) -> BoolArray:
+    """Return which blocks overturn, as :func:`rock_verdicts`; runs end as soon as the rest of the motion cannot overturn the block.
+
+    With E = theta'^2/2 + V(theta), per moment of inertia, the ground changes (2 E)^1/2 by at most lever (abs(a) + abs(a_v)) per second, and
+    impacts only reduce it. A block below alpha stands for certain while (2 E)^1/2 plus lever times the integral of the rest of the motion
+    is smaller than (2 V(alpha))^1/2 (derived here).
+
+    Parameters
+    ----------
+    params : RockBatchParams
+        One block per run, not linear.
+    motion : Motion
+    gains : (m, 3) array
+    min_hop : float, s
+        See :func:`rock_verdicts`.
+
+    Raises
+    ------
+    SolverError
+        If a run has no result.
+    """
+    if motion.is_long:
+        return rock_verdicts(params, motion, gains, min_hop=min_hop).require_complete().overturned
+    acceleration, p = motion.acceleration, model.parameters(params, motion.dt, min_hop)
+    potentials, cosines = params.gravity * params.levers, np.cos(params.alphas)
+    barriers = np.sqrt(2.0 * potentials * (1.0 - cosines)).min(axis=1)
+    scales = np.abs(gains) * params.levers.max(axis=1, keepdims=True)
+    # between samples a straight line stays below the absolute values at its ends; nothing remains after the last sample
+    steps = 0.5 * motion.dt * (np.abs(acceleration[:, 1:]) + np.abs(acceleration[:, :-1]))
+    remaining = np.append(np.cumsum(steps[:, ::-1], axis=1)[:, ::-1], np.zeros((3, 1)), axis=1)
+    typical = np.median(scales / barriers[:, None], axis=0) @ remaining
+    stops = {int((typical < share).argmax()) for share in STOPS} - {0}
+    overturned = np.zeros(len(p), dtype=np.bool_)
+    rows, final, mode = np.arange(len(p)), np.zeros((len(p), 2)), np.full(len(p), model.REST)
+    start = BEGINNING
+    for stop in sorted(stops | {motion.samples - 1}):
+        part = Motion(acceleration[:, : stop + 1], motion.dt)
+        ensemble = integrate_many(ROCKING_SIMD_MODEL, part, p[rows], final, mode, gains=gains[rows], start=start, allow_failures=True)
+        raise_if_endless(bool(ensemble.failed.any()))
+        final, mode, start = ensemble.final, ensemble.final_mode, Instant(stop, 0.0)
+        overturned[rows[mode == model.OVERTURNED]] = True
+        lean, corner = np.abs(final[:, model.THETA]), np.where(mode == model.TO_LEFT, LEFT, RIGHT)
+        rise = potentials[rows, corner] * (np.cos(params.alphas[rows, corner] - lean) - cosines[rows, corner])
+        speed = np.sqrt(np.maximum(final[:, model.OMEGA] ** 2 + 2.0 * rise, 0.0)) + scales[rows] @ remaining[:, stop]
+        is_below = np.isin(mode, (model.REST, model.TO_RIGHT, model.TO_LEFT))
+        is_open = (mode != model.OVERTURNED) & ~(is_below & (speed < SAFETY * barriers[rows]))
+        rows, final, mode = rows[is_open], final[is_open], mode[is_open]
+    endings = np.empty(len(rows), dtype=np.int64)
+    trace_free_rocking_batch(p[rows], final, mode, endings, np.zeros((len(rows), 2)), np.empty((0, 4)))
+    raise_if_endless(bool((endings == ENDLESS).any()))
+    overturned[rows] = endings != STANDS
+    return overturned

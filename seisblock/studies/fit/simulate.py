@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.core.typing import FloatArray, IntArray, Progress
-from seisblock.models.rock.verdicts import rock_verdicts
+from seisblock.models.rock.verdicts import rock_overturned, rock_verdicts
 from seisblock.studies.fit.block_family import PERTURBATION_COUNT, BlockFamily, quasi_random_points
 from seisblock.studies.fit.dataset import FELL, Experiment
 from seisblock.studies.parallel import map_threads
@@ -66,8 +66,10 @@ def outcome_shares(
         params, gains = family.versions(
             np.repeat(unit_points[part], run_count, axis=0), shifts.reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
         )
-        verdicts = rock_verdicts(params, shaking.motion, gains, min_hop=MIN_HOP).require_complete()
-        events = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
+        if experiment.kind == FELL:
+            events = rock_overturned(params, shaking.motion, gains, min_hop=MIN_HOP)
+        else:
+            events = rock_verdicts(params, shaking.motion, gains, min_hop=MIN_HOP).require_complete().max_rotation_ratio > 0.0
         return events.reshape(-1, run_count).sum(axis=1) * (SHARE_DENOMINATOR // run_count)
 
     shares: Any = np.zeros((len(rows), len(unit_points)), dtype=np.uint8)
