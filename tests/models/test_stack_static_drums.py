@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.core.units import STANDARD_GRAVITY as G
@@ -132,3 +133,44 @@ def test_unconverged_steps_of_extreme_mass_ratio_are_reported():
         assert messages == (ratio > 1000.0) or ratio == 1000.0
     assert slips[30.0, None] < 1e-5
     assert slips[1000.0, 1e-3] < 0.5 * slips[1000.0, None] < 1e-4
+
+
+def test_light_drum_on_a_tower_of_drums_does_not_slide():
+    """Under a sudden push below what friction holds and what turns the tower: the errors of four joints added up to a slip."""
+    sizes = ((0.889, 0.829, 366.0, 0.864), (0.809, 0.748, 221.0, 0.757), (0.765, 1.03, 126.0, 0.773), (0.705, 0.799, 346.0, 0.227))
+    stones = []
+    for i, (diameter, height, density, mu) in enumerate(sizes):
+        on = f"s{i - 1}" if i else "ground"
+        stones.append(
+            PileStone(
+                f"s{i}",
+                diameter,
+                diameter,
+                height,
+                on=on,
+                shape=ROUND,
+                density=density,
+                mu=mu,
+                mu_kinetic=0.3 * mu,
+                inset=EdgeWear(share=0.05),
+            )
+        )
+    for dt in (0.005, 0.01, 0.05):
+        push = np.zeros((3, round(5.0 / dt)))
+        push[1] = 0.975 * 0.227 * G
+        outcome = solve_stack(Pile("drums", tuple(stones)), Motion(push, dt)).outcome
+        assert max(stone.residual_slip_m for stone in outcome.stones) < 1e-5
+        assert max(outcome.max_tilt_rad.values()) < 1e-4
+
+
+def test_boxes_on_a_drum_do_not_slide_at_nineteen_twentieths_of_their_friction():
+    """The push grows over eight seconds; the errors of the joints took one of them, in eleven seconds, beyond its friction."""
+    drum = PileStone("drum", 0.479, 0.479, 0.178, shape=ROUND, density=69.4, mu=0.905, mu_kinetic=0.543)
+    lower = PileStone("lower", 0.4, 0.446, 0.476, on="drum", density=205.0, mu=0.401, mu_kinetic=0.241)
+    upper = PileStone("upper", 0.4, 0.542, 0.348, on="lower", density=166.0, mu=1.01, mu_kinetic=0.606)
+    for dt in (0.005, 0.01, 0.02):
+        part = np.clip(np.arange(0.0, 15.0, dt) / 10.0, 0.0, 1.0)
+        push = -0.95 * 0.401 * G * (3.0 * part**2 - 2.0 * part**3)
+        outcome = solve_stack(Pile("pile", (drum, lower, upper)), Motion(np.array([push, 0.0 * push, 0.0 * push]), dt)).outcome
+        assert max(stone.residual_slip_m for stone in outcome.stones) < 1e-5
+        assert max(outcome.max_tilt_rad.values()) < 1e-4

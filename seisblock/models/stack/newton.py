@@ -57,8 +57,9 @@ MAX_ITERATIONS, MAX_GROWTH = 600, 1e6
 """Newton steps after which the sweeps take over; and error of the impulses over the first one (at least the tolerance) from which they
 diverge: high friction may let them grow without bound (Painleve)."""
 
-ACCURACY = 0.7
-"""Error of the velocities, over the tolerance, at which the iterations end."""
+ACCURACY, FINE_ACCURACY, MAX_REFINEMENTS = 0.7, 0.03, 10
+"""Error of the velocities, over the tolerance, at which the iterations end; error that they go on to while the contact laws converge, since
+errors of many joints add up to a slip that friction should prevent; and number of steps after which they end without it."""
 
 FIRST_COMPLIANCE, COMPLIANCE_FACTOR, MIN_COMPLIANCE = 3e-2, 0.5, 1e-5
 """Compliance of a contact over its Delassus block: at first, ratio of successive ones, and smallest."""
@@ -586,6 +587,7 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
     """
     save_state(n, ground, rows, velocities, False)
     proximity, max_change, first_error, last_error, length, iterations = FIRST_PROXIMITY, math.inf, math.inf, math.inf, 1.0, 0
+    refinements, target = 0, FINE_ACCURACY * tolerance
     while True:
         law_error, change, error = 0.0, 0.0, 0.0
         for i in range(ground):
@@ -606,6 +608,8 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
             u0, u1, u2 = relative_velocity(contact_ids[i, 0], contact_ids[i, 1], rows[i], work)
             change = max(change, max(abs(u0), max(abs(u1), abs(u2))))
         if max(change, law_error) < ACCURACY * tolerance:
+            refinements += 1
+        if max(change, law_error) < (target if refinements <= MAX_REFINEMENTS else ACCURACY * tolerance):
             # impulses that obey the cones exactly, with the velocities that belong to them
             for i in range(ground):
                 for k in range(6):
@@ -633,7 +637,12 @@ def _solve_laws(n, contact_ids, rows, ground, inertias, tolerance, velocities, b
             continue
         factor, ratio = 1.0, LAW_RATIO if proximity < 0.5 * FIRST_PROXIMITY else MOVE_RATIO
         # the laws that act have settled: what is left is the velocity that the proximity leaves
-        if length == 1.0 and law_error > ACCURACY * tolerance and change < ratio * law_error and proximity > MIN_PROXIMITY:
+        if (
+            length == 1.0
+            and law_error > (target if refinements > 0 else ACCURACY * tolerance)
+            and change < ratio * law_error
+            and proximity > MIN_PROXIMITY
+        ):
             factor = PROXIMITY_FACTOR
         elif length < SHORT_LENGTH and proximity < MAX_PROXIMITY:
             factor = 1.0 / PROXIMITY_FACTOR
