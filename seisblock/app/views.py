@@ -424,13 +424,16 @@ def _outcome(overturned: bool | None) -> str:
 
 
 def _shaking_facts(result: Mapping[str, Any]) -> list[tuple[str, str]]:
+    from seisblock.measures.intensity import reported_intensity
+
     names = list(dict.fromkeys(gettext(name) for name in result["jma_classes"] if name))
     classes = gettext("{low} to {high}", low=names[0], high=names[1]) if len(names) == 2 else "".join(names)
+    intensity = result["jma_intensity"]
     return [
         (gettext("overturning rate"), _rate_text(result["fallen"], result["fallen"] + result["standing"])),
         ("PGA", _with_interval(result["pga_m_s2"], result["pga_interval_m_s2"], "gal")),
         ("PGV", _with_interval(result["pgv_m_s"], result["pgv_interval_m_s"], "kine")),
-        (gettext("JMA intensity"), classes if result["jma_intensity"] is None else f"{result['jma_intensity']:.1f} ({classes})"),
+        (gettext("JMA intensity"), classes if intensity is None else f"{reported_intensity(intensity):.1f} ({classes})"),
         (gettext("class by the surveyors' rule"), gettext(result["jma_class_by_rule"] or "")),
     ]
 

@@ -252,6 +252,8 @@ def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: s
         inset=params["inset"] if params["criterion"] != "rigid" else params["inset"] or DEFAULT_WEAR,
         intensity=INTENSITY_OF_VELOCITY if params["criterion"] == "rigid" else INTENSITY_OF_STONES,
     )
+    if parameters.unknown_stones:
+        info("{count} of {stones} stones omitted: overturning unknown", count=parameters.unknown_stones, stones=parameters.stones)
     # all stones of each place, at the first frequency
     at_places = [(place, fitted_stones(survey, frequencies[0], assumptions)) for place, survey in surveys]
     answer = stones_document(answers, line, parameters, warnings, joint, at_places)

@@ -216,6 +216,10 @@ def float_array(quantity: str, values: Any, /) -> FloatArray:
         array = np.asarray(None)
     if array.dtype.kind not in "iuf":
         raise ParameterError("{what} must be numbers, found {found}", what=lazy_gettext(quantity), found=repr(values)[:MAX_REPR_LENGTH])
+    # the values below a mask are no data
+    if np.ma.is_masked(values):
+        message = "{what}: {count} of {size} values are masked; fill the gaps, or cut the array before them"
+        raise ParameterError(message, what=lazy_gettext(quantity), count=int(np.ma.getmaskarray(values).sum()), size=array.size)
     return np.asarray(array, dtype=np.float64)
 
 

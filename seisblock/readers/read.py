@@ -300,7 +300,8 @@ def _as_list(locations: Location | Iterable[Location]) -> list[Location]:
     if isinstance(locations, (str, PathLike)):
         return [locations]
     items = list(locations) if isinstance(locations, Iterable) else [locations]
-    if not all(isinstance(item, (str, PathLike)) for item in items):
+    # a DataFrame iterates over the names of its columns
+    if hasattr(locations, "columns") or not all(isinstance(item, (str, PathLike)) for item in items):
         text = "expected a path or a list of paths, found {found}; for arrays use Record.from_arrays"
         raise KindError(text, found=checks.type_name(locations))
     return items

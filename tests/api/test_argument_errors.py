@@ -133,6 +133,12 @@ def test_functions_require_a_body(name):
         (lambda: sb.models.uplift_many([SPRINGS], MOTION, gains=1.0), r"`gains` must have shape .*, found \(\)"),
         (lambda: sb.models.respond_many([PARAMS] * 2, MOTION, gains=np.ones((3, 3))), r"\(2, 3\), one row per run, found \(3, 3\)"),
         (lambda: sb.models.respond_many([PARAMS], MOTION, gains="abc"), "`gains` must be numbers, found 'abc'"),
+        (
+            lambda: sb.Record.from_arrays({"EW": np.ma.masked_greater(np.arange(9.0), 6.0)}, dt=0.01),
+            "the accelerations: 2 of 9 values are masked; fill the gaps",
+        ),
+        (lambda: sb.Motion.from_arrays(np.ma.masked_greater(np.arange(9.0), 6.0), 0.01), "2 of 9 values are masked"),
+        (lambda: sb.solve_rock(BLOCK, MOTION, restitution="0.9"), r"`restitution` .* must lie in \[0, 1\], found '0.9'"),
         (lambda: sb.load_block(None), "expected a path or a name, found None"),
         (lambda: sb.load_two_layer(3), "expected a path or a name, found int"),
         (lambda: sb.read_cemetery(b"aoyama.csv"), "expected a path or a name, found bytes"),
@@ -245,3 +251,16 @@ def test_keyword_errors_name_the_function_called(keywords, says):
     """A missing friction was an error of `RespondOptions.__init__`, a class that the caller had never seen."""
     with pytest.raises(TypeError, match=rf"^solve_respond\(\) .*{says}"):
         sb.solve_respond(BLOCK, MOTION, **keywords)
+
+
+def test_read_of_a_table_in_memory_points_to_from_arrays():
+    """The names of the columns of a DataFrame were taken for files."""
+    frame = type("DataFrame", (list,), {"columns": ["EW"]})(["EW"])
+    with pytest.raises(sb.errors.KindError, match=r"found DataFrame; for arrays use Record\.from_arrays"):
+        sb.read(frame)
+
+
+def test_friction_of_any_real_type_is_accepted():
+    """A float32 was refused as no SlidingBase."""
+    expected = sb.solve_slide(0.25, MOTION).outcome
+    assert sb.solve_slide(np.float32(0.25), MOTION).outcome == expected

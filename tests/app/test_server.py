@@ -179,6 +179,10 @@ def test_survey_without_bounds_and_collection_show_their_documents_in_japanese(t
         "jma_intensity": None, "jma_classes": [None, "5-"], "jma_class_by_rule": None, "each_stone": [stone],
         "contingency": {"both": 0, "computed_only": 1, "observed_only": 0, "neither": 0},
     }  # fmt: skip
+    # as JMA reports it, and `infer`: rounded to two decimals, truncated to one (was 6.1)
+    assert "6.0 (" in views.survey_result(
+        tab, finished_job(tmp_path, {"results": [{**estimate, "jma_intensity": 6.08, "jma_classes": ["6-", "6+"]}]}, line=("infer",))
+    )
     risk = {"body": "vase", "class": "may overturn", "overturning_probability": 0.3, "interval": [0.2, 0.4], "moved_probability": 0.5,
             "failure": None, "advice": ["Keep people, exits and fragile objects 1.8 m away until then."]}  # fmt: skip
     with use_locale("ja"):

@@ -101,7 +101,9 @@ def test_infer_from_observed_stones_separates_reinforced(run, document, survey, 
     assert answer["parameters"]["unknown_stones"] == 1
     plain = document("--cemetery", survey, "--frequency", 2, "--bias", 0, "--stone-error", 0.05)["results"][0]
     assert plain["pga_m_s2"] == pytest.approx(float(overturning_level(2.0)) / 2.84, rel=0.05)
-    output = run("--cemetery", survey, "--frequency", 2).stdout
+    result = run("--cemetery", survey, "--frequency", 2)
+    output = result.stdout
+    assert "1 of 101 stones omitted: overturning unknown" in result.stderr
     assert "survey, stones not reinforced: 32 of 90 overturned" in output
     assert "JMA intensity" in output
 

@@ -141,10 +141,10 @@ def rock_batch_params(blocks: BlockArray, motion: Motion, options: RockOptions =
 
 
 def _check_restitution(ratios: CornerPair, restitution: Restitution) -> CornerPair:
-    """Return `ratios`; raise ParameterError unless both lie in [0, 1]."""
-    if not all(0.0 <= ratio <= 1.0 for ratio in ratios):
+    """Return `ratios`; raise ParameterError unless both are numbers in [0, 1]."""
+    if not all(isinstance(ratio, (int, float, np.floating)) and 0.0 <= ratio <= 1.0 for ratio in ratios):
         raise ParameterError(
             "`restitution` (ratio of angular velocities) must lie in [0, 1], found {found}; default: 1 - 1.5 sin^2(alpha)",
-            found=str(restitution),
+            found=repr(restitution),
         )
     return ratios

@@ -147,8 +147,8 @@ def solve_slide(base: SlidingBase | float, motion: Motion, options: SlideOptions
     >>> round(response.outcome.residual_slip_m, 4)
     -2.0997
     """
-    if isinstance(base, (int, float)):
-        base = SlidingBase(base)
+    if isinstance(base, (int, float, np.floating)):
+        base = SlidingBase(float(base))
     validate_inputs(base, SlidingBase, motion)
     gravity, gains = options.gravity, motion_gains(motion, options.vertical)
     p = parameters(base, gravity)
