@@ -12,6 +12,7 @@ from scipy.stats import CensoredData, linregress, norm
 import seisblock
 from seisblock.bodies.block import Block
 from seisblock.core.errors import ParameterError
+from seisblock.core.registry import get_solver
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.measures import rotated_spectrum
 from seisblock.models.respond.batch import respond_many
@@ -290,6 +291,24 @@ class TestRuns:
             assert ends.overturned.tolist() == [fell for fell, _ in single]
             assert stood.sum() >= 5 and (ends.tilt_ratio[stood] > 0.1).any()
             assert ends.tilt_ratio[stood] == pytest.approx([lean for fell, lean in single if not fell], rel=1e-6, abs=1e-9)
+
+    @pytest.mark.parametrize("solver", ["rock", "respond"])
+    def test_tilt_of_asymmetric_block_refers_to_the_corner_concerned(self, solver):
+        """The ratio of each run is that of the single answer, also where the block tilts further about its stronger corner."""
+        block = seisblock.Block(0.25, 1.0, centroid_offset=-0.05)
+        options = {"mu": 0.9} if solver == "respond" else {}
+        time = np.arange(0.0, 3.0, 0.01)
+        (placed,) = prepare_bodies([block], solver, options)
+        about_stronger = 0
+        for seed in range(12):
+            row = np.random.default_rng(seed).normal(size=time.size)
+            motion = Motion.from_arrays(60.0 * np.convolve(row, np.hanning(31), "same") / 15.0, 0.01)
+            ratio = solver_studies(solver).end_states(placed, motion, np.array([0.05, 0.1, 0.15, 0.2]), None).tilt_ratio
+            for k, factor in enumerate((0.05, 0.1, 0.15, 0.2)):
+                outcome = get_solver(solver).solve(block, Motion(factor * motion.acceleration, 0.01), **options).outcome
+                assert ratio[k] == pytest.approx(outcome.max_rotation_ratio, rel=1e-6, abs=1e-9)
+                about_stronger += 0.0 < outcome.max_rotation_ratio < 0.999 * outcome.max_rotation_rad / block.slenderness
+        assert about_stronger >= 2
 
     def test_pile_runs_equal_solve_stack(self):
         """Overturning of a stone at a factor agrees with the solver of piles."""

@@ -50,6 +50,8 @@ class RespondBatchResult(DisplayMixin):
     final_displacement_m, max_displacement_m : m
         Displacement of the centre of gravity from x = 0; the former signed.
     max_rotation_rad : rad
+    max_rotation_ratio : 1
+        Peak tilt over the overturning angle of the corner concerned.
     slip_path_m : m
     impacts : int
     end_s : s
@@ -67,6 +69,7 @@ class RespondBatchResult(DisplayMixin):
     final_displacement_m: FloatArray
     max_displacement_m: FloatArray
     max_rotation_rad: FloatArray
+    max_rotation_ratio: FloatArray
     slip_path_m: FloatArray
     impacts: IntArray
     end_s: FloatArray
@@ -224,6 +227,11 @@ def _run_batch(
     runs = solve_runs(params, motion, gains, initial, settle_s)
     mode, final, high, low = runs.mode, runs.final, runs.high, runs.low
     is_overturned = mode == constants.OVERTURNED
+    tilts = np.array([high[:, constants.THETA], -low[:, constants.THETA]])
+    if isinstance(params, RespondBatchParams):
+        slendernesses = params.blocks.slendernesses
+    else:
+        slendernesses = np.array([row_params.rigid_body.slendernesses for row_params in params])
     return RespondBatchResult(
         overturned=is_overturned,
         settled=~runs.failed & are_rest(mode),
@@ -231,7 +239,8 @@ def _run_batch(
         direction=np.where(is_overturned, np.sign(final[:, constants.THETA]), 0.0).astype(np.int64),
         final_displacement_m=final[:, constants.X],
         max_displacement_m=np.maximum(high[:, constants.X], -low[:, constants.X]) + 0.0,
-        max_rotation_rad=np.maximum(high[:, constants.THETA], -low[:, constants.THETA]) + 0.0,
+        max_rotation_rad=np.maximum(*tilts) + 0.0,
+        max_rotation_ratio=np.maximum(*(tilts / slendernesses.T)) + 0.0,
         slip_path_m=final[:, constants.PATH],
         impacts=final[:, constants.IMPACTS].astype(np.int64),
         end_s=runs.time,

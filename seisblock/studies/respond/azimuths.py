@@ -148,7 +148,7 @@ def _direction(azimuth: float, block: Block, result: RespondBatchResult, row: in
         float(result.final_displacement_m[row]),
         float(result.max_displacement_m[row]),
         start_s + float(result.end_s[row]),
-        float(result.max_rotation_rad[row]) / block.slenderness,
+        float(result.max_rotation_ratio[row]),
         bool(result.gave_up[row]),
     )
 

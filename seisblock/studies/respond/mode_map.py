@@ -141,7 +141,6 @@ def mode_map(
     settings = RespondBatchParams(
         to_block_array(blocks)[kinds], friction_by_cell, friction_by_cell, np.full(cells, restitution), np.ones(cells), False, gravity, 0.0
     )
-    alphas = settings.blocks.slendernesses.min(axis=1)
     # Shenton's initiation limits use the same vertical motion as the runs
     up = vertical_gain(motion, vertical)
     ratio, time = peak_loading_ratio(motion, vertical=vertical, gravity=gravity)
@@ -152,8 +151,9 @@ def mode_map(
         part = slice(first, min(first + CHUNK_SIZE, cells))
         result = respond_many(settings[part], motion, gains=(1.0, 0.0, up), settle_s=settle_s)
         gave_up += int(result.gave_up.sum())
-        lean = result.max_rotation_rad / alphas[part]
-        table[part] = np.column_stack([_worst_mode(result, visible_flight_s), lean, result.slip_path_m, result.final_displacement_m])
+        table[part] = np.column_stack(
+            [_worst_mode(result, visible_flight_s), result.max_rotation_ratio, result.slip_path_m, result.final_displacement_m]
+        )
         if progress is not None:
             progress(part.stop, cells)
     if gave_up == cells:

@@ -15,7 +15,6 @@ from seisblock.core.registry import SolverBody
 from seisblock.core.typing import BoolArray, FloatArray
 from seisblock.models.respond.batch import RespondBatchResult, no_answer, respond_many
 from seisblock.models.respond.options import RespondOptions
-from seisblock.models.respond.params import rigid_body
 from seisblock.models.respond.solve import respond_params
 from seisblock.models.rock.options import RockOptions
 from seisblock.records import Motion
@@ -111,7 +110,6 @@ def _end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, dr
     """Return the end states of a free-standing body; an overturned one has an infinite displacement."""
     options: RespondOptions = solver_body.options
     unit = np.array([1.0, 0.0, vertical_gain(motion, options.vertical)])
-    alphas: float | FloatArray = min(rigid_body(solver_body.body).slendernesses)
     if draws is None:
         settings: Any = [respond_params(solver_body.body, options)] * factors.size
     else:
@@ -119,12 +117,11 @@ def _end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, dr
             raise ParameterError("{name}: `perturb` requires a block: omit `perturb`", name=solver_body.name)
         run_draws = np.tile(draws, (factors.size, 1))
         settings = sample_respond_params(solver_body.body, VERSIONS, run_draws, options)
-        alphas = settings.blocks.slendernesses.min(axis=1)
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
     results = respond_many(settings, motion, gains=gains, settle_s=options.settle_s)
     # beyond every slip limit
     slip = np.where(results.overturned, np.inf, np.abs(results.final_displacement_m))
-    return EndStates(results.overturned, results.max_rotation_rad / alphas, slip, results.gave_up)
+    return EndStates(results.overturned, results.max_rotation_ratio, slip, results.gave_up)
 
 
 STUDIES = SolverStudies(

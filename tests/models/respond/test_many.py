@@ -16,6 +16,8 @@ from tests.models.respond.cases import shaking
 MOTION = shaking(9, 9.0, seconds=8.0)
 SHORT = Motion(MOTION.acceleration[:, :500], MOTION.dt)
 
+SCALARS = ("final_displacement_m", "max_displacement_m", "max_rotation_rad", "max_rotation_ratio", "slip_path_m", "impacts", "end_s")
+
 
 def versions(n=40):
     """Return versions of a block that do all sorts of things."""
@@ -38,7 +40,7 @@ def test_respond_many_rows_equal_single_runs(motion, settle_s):
         assert batch.overturned[row] == first.overturned
         assert batch.settled[row] == first.settled
         assert batch.direction[row] == {"+x": 1, "-x": -1, None: 0}[first.overturned_towards]
-        for name in ("final_displacement_m", "max_displacement_m", "max_rotation_rad", "slip_path_m", "impacts", "end_s"):
+        for name in SCALARS:
             assert getattr(batch, name)[row] == getattr(first, name), name
         assert batch.time_in_mode_s[row] == pytest.approx(list(first.time_in_mode_s.values()), abs=1e-9)
         flights = [phase.duration_s for phase in response.phases if phase.name == "flight"]
@@ -57,7 +59,7 @@ def test_respond_many_rows_equal_single_runs_at_extreme_parameters(up):
     for row, (block, options) in enumerate(rows):
         first = solve_respond(block, motion, sensitivity=False, vertical=True, **options).outcome
         assert batch.overturned[row] == first.overturned
-        for name in ("settled", "final_displacement_m", "max_displacement_m", "max_rotation_rad", "slip_path_m", "impacts", "end_s"):
+        for name in ("settled", *SCALARS):
             assert getattr(batch, name)[row] == getattr(first, name), (name, block.width, options)
 
 
