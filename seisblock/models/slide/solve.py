@@ -326,7 +326,7 @@ def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, traj
         level = modes >= LEVEL
         sine, cosine, phase = np.where(level, 0.0, sine), np.where(level, 1.0, cosine), modes % LEVEL
     # resolved along the base: a_h cos th - a_v sin th ([Fujino1978]_ eq. (5))
-    base_acceleration = horizontal * cosine - vertical * sine if base.slope_deg or gain else horizontal
+    base_acceleration = horizontal * cosine - vertical * sine if base.slope_deg else horizontal
     normal = (gravity + vertical) * cosine + (horizontal * sine if base.slope_deg else 0.0)
     pull = gravity * sine
     friction_sign = _FRICTION_SIGN[phase]
