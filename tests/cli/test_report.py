@@ -29,7 +29,7 @@ from seisblock.report.html.report import report
 from seisblock.report.html.report_text import verdict
 from seisblock.samples import sample_path
 from seisblock.studies.report.models import body_models
-from seisblock.studies.report.responses import collect_responses
+from seisblock.studies.report.responses import ReportData, collect_responses
 from tests.brief_record import brief_record
 from tests.i18n.english import english_words, visible_text
 
@@ -304,3 +304,17 @@ def test_report_prints_one_line_per_body(tmp_path):
     assert record == "Record: synthetic_jma.csv (bundled, synthetic); none given."
     assert re.fullmatch(r"gravestone: likely overturns \(\d+.%\); worst direction (NS|EW)", line)
     assert f"<b>{line}.</b>" in page.read_text(encoding="utf-8").replace("\xa0", " ")
+
+
+def test_warnings_of_several_bodies_name_the_body():
+    """Of two bodies, "280: the result is sensitive to the amplitude" did not tell which."""
+
+    def body(name, text):
+        return SimpleNamespace(
+            subject=SimpleNamespace(name=name), effects=[SimpleNamespace(response=SimpleNamespace(warnings=(text, text)))]
+        )
+
+    measures = SimpleNamespace(warnings=("short record",))
+    bodies = (body("gravestone", "NS: sensitive"), body("bookcase", "NS: sensitive"))
+    assert ReportData(None, measures, bodies[:1], 9.8).warnings == ("short record", "NS: sensitive")
+    assert ReportData(None, measures, bodies, 9.8).warnings == ("short record", "gravestone: NS: sensitive", "bookcase: NS: sensitive")

@@ -23,6 +23,7 @@ from seisblock.records import Motion
 from seisblock.report.figures.azimuths import figure as azimuths_figure
 from seisblock.report.figures.criteria import figure as criteria_figure
 from seisblock.report.figures.fragility import figure as fragility_figure
+from seisblock.report.figures.scenario import figure as scenario_figure
 from seisblock.report.text.fragility import verdict
 from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.survey.overturning_rate import overturning_rate
@@ -32,6 +33,7 @@ from seisblock.validation.furukawa_field import rates as field_rates
 from tests.report.long_record import (
     AOYAMA,
     EVERY,
+    OBJECTS,
     PLANE,
     cards,
     criterion,
@@ -419,3 +421,9 @@ def test_sliding_limits_on_slope_are_drawn_on_their_side():
     limits = [float(np.median(line.get_ydata())) for line in lines if line.get_color() == THRESHOLD]
     # the limits vary with the load normal to the slope: their median is that of a small acceleration
     assert limits == pytest.approx(slip_limits(10.0, 0.3), rel=5e-3)
+
+
+def test_scenario_legend_explains_the_dashed_lines():
+    """The limits of the classes, 5 and 50 %, were drawn without a word."""
+    (legend,) = scenario_figure(OBJECTS, "JMA 6 upper").legends
+    assert "limits of the classes" in [text.get_text() for text in legend.get_texts()]

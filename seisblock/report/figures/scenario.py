@@ -35,7 +35,7 @@ def figure(results: Sequence[ObjectRisk], label: str) -> Figure:
     if len(plotted) > MAX_OBJECTS:
         title = gettext("{title}; the worst {count} of {all} objects", title=title, count=MAX_OBJECTS, all=len(plotted))
     plotted = plotted[:MAX_OBJECTS]
-    fig, (axes,) = new_figure(1, width=6.4, height=1.5 + 0.26 * max(len(plotted), 3), title=title)
+    fig, (axes,) = new_figure(1, width=6.4, height=1.65 + 0.26 * max(len(plotted), 3), title=title)
     rows = range(len(plotted))
     axes.barh(
         rows, [100.0 * (r.moved_probability or 0.0) for r in plotted], color=MOVES_COLOUR, height=0.7, label=gettext("moves or overturns")
@@ -60,10 +60,11 @@ def figure(results: Sequence[ObjectRisk], label: str) -> Figure:
                 label=None if row else gettext("95 % interval"),
             )
     for share in (MAY_SHARE, LIKELY_SHARE):
-        axes.axvline(100.0 * share, color="0.4", linewidth=0.7, linestyle="--")
+        text = gettext("limits of the classes") if share == MAY_SHARE else None
+        axes.axvline(100.0 * share, color="0.4", linewidth=0.7, linestyle="--", label=text)
     axes.set_yticks(list(rows), [_short(escape_control(object_name(result))) for result in plotted], parse_math=False)
     axes.set_ylim(max(len(plotted), 1) - 0.4, -0.6)
     axes.set_xlim(0.0, 100.0)
     label_axes(axes, x=gettext("probability (%)"))
-    add_figure_legend(fig, axes.get_legend_handles_labels()[0], loc="outside lower center", ncols=3)
+    add_figure_legend(fig, axes.get_legend_handles_labels()[0], loc="outside lower center", ncols=2)
     return fig

@@ -10,6 +10,7 @@ import numpy as np
 
 from seisblock.bodies.factory import block_for_motion
 from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.core.i18n import lazy_gettext
 from seisblock.core.results import Response
 from seisblock.core.typing import Progress
 from seisblock.core.units import STANDARD_GRAVITY
@@ -88,11 +89,15 @@ class ReportData:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """All warnings, without duplicates."""
-        messages = [
-            *self.measures.warnings,
-            *(text for body in self.bodies for effect in body.effects for text in effect.response.warnings),
-        ]
+        """All warnings, without duplicates; those of one of several bodies begin with its name."""
+        messages = list(self.measures.warnings)
+        for body in self.bodies:
+            texts = [text for effect in body.effects for text in effect.response.warnings]
+            messages += (
+                [lazy_gettext("{name}: {what}", name=lazy_gettext(body.subject.name), what=text) for text in texts]
+                if len(self.bodies) > 1
+                else texts
+            )
         return tuple(dict.fromkeys(messages))
 
     @property
