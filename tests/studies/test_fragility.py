@@ -310,6 +310,23 @@ class TestRuns:
                 about_stronger += 0.0 < outcome.max_rotation_ratio < 0.999 * outcome.max_rotation_rad / block.slenderness
         assert about_stronger >= 2
 
+    @pytest.mark.parametrize(
+        ("solver", "options", "perturb"),
+        [
+            ("rock", {"initial": (0.05, 0.0)}, 0),
+            ("respond", {"mu": 0.5, "initial": (0.0, 0.46, 0.05, 0.0, 0.0, 0.0)}, 0),
+            ("respond", {"mu": 0.5, "further_points": ((0.3, -0.4),)}, 4),
+        ],
+    )
+    def test_options_of_single_runs_are_rejected(self, solver, options, perturb):
+        """An initial state, and further points of samples, would have no effect in rows."""
+        motion = Motion.from_arrays(np.sin(np.arange(0.0, 3.0, 0.01)), 0.01)
+        (placed,) = prepare_bodies([seisblock.Block(0.2, 0.9)], solver, options)
+        with pytest.raises(ParameterError, match=r"have no option `(initial|further_points)`"):
+            solver_studies(solver).end_states(placed, motion, np.array([1.0]), version_draws(perturb, 0))
+        with pytest.raises(ParameterError, match=r"have no option `(initial|further_points)`"):
+            seisblock.uncertainty.sample(solver, placed.body, motion, placed.options, 4)
+
     def test_pile_runs_equal_solve_stack(self):
         """Overturning of a stone at a factor agrees with the solver of piles."""
         (placed,) = prepare_bodies("lantern", "stack", {"points": 2})

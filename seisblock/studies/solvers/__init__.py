@@ -8,11 +8,13 @@ from __future__ import annotations
 import importlib
 import pkgutil
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
+from seisblock.core.errors import ParameterError
+from seisblock.core.options import SolverOptions
 from seisblock.core.registry import SolverBody, get_solver, solver_names
 from seisblock.records import Record
 
@@ -69,6 +71,14 @@ def solver_studies(name: str) -> SolverStudies:
         end_states = pkgutil.resolve_name("seisblock.studies.fragility.runners:single_end_states")
         return replace(studies, end_states=partial(end_states, solver=solver), limits=tuple(solver.damage_states))
     return studies
+
+
+def require_default(options: SolverOptions, *names: str) -> None:
+    """Raise ParameterError for options of single runs, which many runs do not take, unless they have their default."""
+    defaults = {field.name: field.default for field in fields(options)}
+    given = [f"`{name}`" for name in names if getattr(options, name) != defaults[name]]
+    if given:
+        raise ParameterError("samples and fragilities have no option {names}: omit it", names=given)
 
 
 def solvers_with(study: str) -> list[str]:

@@ -27,7 +27,7 @@ from seisblock.studies.model_comparison import ModelResult, compare_models
 from seisblock.studies.predictability import respond_predictable_until
 from seisblock.studies.respond.azimuths import respond_directions
 from seisblock.studies.sampling import MOVED_M, Samples, Sampling, sample_gains, sample_respond_params
-from seisblock.studies.solvers import SolverStudies
+from seisblock.studies.solvers import SolverStudies, require_default
 
 FULL_RESPONSE = N_("full response")
 """Name of this model among the models of an object."""
@@ -43,6 +43,7 @@ def _sample(sampling: Sampling) -> Samples:
     """Solve the samples in chunks of rows."""
     block, motion, options, variation, draws = sampling.body, sampling.motion, sampling.options, sampling.variation, sampling.draws
     validate_inputs(block, Block, motion)
+    require_default(options, "initial", "further_points")
     respond_params(block, options)  # validates the nominal values: samples are clipped into their ranges
     params, gains = sample_respond_params(block, variation, draws, options), sample_gains(motion, variation, draws, options.vertical)
     parts: list[RespondBatchResult] = []
@@ -109,6 +110,7 @@ def full_response(block: Block, motion: Motion, options: RespondOptions) -> Mode
 def _end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
     """Return the end states of a free-standing body; an overturned one has an infinite displacement."""
     options: RespondOptions = solver_body.options
+    require_default(options, "initial", *(() if draws is None else ("further_points",)))
     unit = np.array([1.0, 0.0, vertical_gain(motion, options.vertical)])
     if draws is None:
         settings: Any = [respond_params(solver_body.body, options)] * factors.size

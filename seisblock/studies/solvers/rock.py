@@ -22,13 +22,14 @@ from seisblock.studies.predictability import rock_predictable_until
 from seisblock.studies.rocking.azimuths import rock_directions
 from seisblock.studies.rocking.verdicts import parallel_verdicts
 from seisblock.studies.sampling import MOVED_M, Samples, Sampling, sample_gains, sample_rock_params
-from seisblock.studies.solvers import SolverStudies
+from seisblock.studies.solvers import SolverStudies, require_default
 
 
 def _sample(sampling: Sampling) -> Samples:
     """Solve the samples in rows."""
     motion, variation, draws = sampling.motion, sampling.variation, sampling.draws
     validate_inputs(sampling.body, Block, motion)
+    require_default(sampling.options, "initial")
     params = sample_rock_params(sampling.body, motion, variation, draws, sampling.options)
     verdicts = parallel_verdicts(params, motion, sample_gains(motion, variation, draws, params.vertical), progress=sampling.progress)
     return sampling.results(verdicts.overturned, np.zeros(len(draws)), verdicts.gave_up)
@@ -63,6 +64,7 @@ def assess_rock(
 def _end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
     """Return the end states of a rocking block."""
     options = solver_body.options
+    require_default(options, "initial")
     bodies: RockBatchParams | list[RockParams]
     if draws is None:
         bodies = [rock_params(solver_body.body, motion, options)]
