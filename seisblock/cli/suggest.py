@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
+from itertools import islice
+from pathlib import Path
 from typing import Any
 
 import click
@@ -25,6 +27,9 @@ RELATED_OPTIONS = (
     ("--runs", "--samples", "--perturb"),
 )
 """Options of different commands for the same thing: one that a command lacks suggests the one that it has."""
+
+MAX_NEIGHBOURS = 1000
+"""Most files of a folder that are compared with a mistyped name."""
 
 MIN_PREFIX_LENGTH = 4
 """Shortest name, letters, that matches a longer word beginning with it (``rocking``: ``rock``)."""
@@ -69,7 +74,7 @@ def _edit_distance(a: str, b: str) -> int:
 
 
 def add_suggestion(text: str, message: str) -> str:
-    """Return a translated message with a suggestion where it lists known names and one of them is near.
+    """Return a translated message with a suggestion where it lists known names and one of them, or a file in the same folder, is near.
 
     Parameters
     ----------
@@ -81,8 +86,18 @@ def add_suggestion(text: str, message: str) -> str:
     if not isinstance(message, Message):
         return text
     candidates = next((message.values[key] for key in KNOWN_KEYS if key in message.values), ())
-    name = next((message.values[key] for key in NAME_KEYS if key in message.values), "")
-    return did_you_mean(text, closest_name(str(name), map(str, candidates)) if isinstance(candidates, list | tuple) else None)
+    name = str(next((message.values[key] for key in NAME_KEYS if key in message.values), ""))
+    if not isinstance(candidates, list | tuple) or not candidates:
+        return text
+    return did_you_mean(text, closest_name(name, [*map(str, candidates), *_neighbours(Path(name))]))
+
+
+def _neighbours(path: Path) -> list[str]:
+    """Return the files in the folder of a file that does not exist; of names without a suffix, none."""
+    try:
+        return [str(file) for file in islice(path.parent.iterdir(), MAX_NEIGHBOURS)] if path.suffix else []
+    except (OSError, ValueError):
+        return []
 
 
 def did_you_mean(text: str, name: str | None) -> str:

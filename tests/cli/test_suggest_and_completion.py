@@ -57,6 +57,25 @@ def test_unknown_name_suggests_nearest(line, suggestion, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
+    ("line", "suggestion"),
+    [
+        (("measure", "記録１.V1A"), "記録 １.V1A"),
+        (("measure", "data/nig019.ES"), "data/NIG019.EW"),
+        (("rock", "--block", "rokc.toml"), "rock.toml"),
+        (("overturn-rate", "--cemetery", "survay.csv"), "survey.csv"),
+    ],
+)
+def test_missing_file_suggests_a_file_in_its_folder(line, suggestion, tmp_path, monkeypatch):
+    """The bundled samples were listed, and the user's own file with a blank in its name was not."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "data").mkdir()
+    for name in ("記録 １.V1A", "data/NIG019.EW", "rock.toml", "survey.csv"):
+        (tmp_path / name).touch()
+    stderr = " ".join(CliRunner().invoke(main, list(line)).stderr.split())
+    assert f"did you mean {suggestion}?" in stderr
+
+
+@pytest.mark.parametrize(
     ("line", "english", "japanese"),
     [
         (("overturn-rate",), "Missing option '--cemetery'.", "オプション '--cemetery' は必須です。"),
