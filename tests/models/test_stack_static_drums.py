@@ -174,3 +174,16 @@ def test_boxes_on_a_drum_do_not_slide_at_nineteen_twentieths_of_their_friction()
         outcome = solve_stack(Pile("pile", (drum, lower, upper)), Motion(np.array([push, 0.0 * push, 0.0 * push]), dt)).outcome
         assert max(stone.residual_slip_m for stone in outcome.stones) < 1e-5
         assert max(outcome.max_tilt_rad.values()) < 1e-4
+
+
+@pytest.mark.parametrize("size", [0.008, 0.8])
+def test_worn_box_stands_on_a_drum_of_any_size(size):
+    """Pushed slowly to 0.97 of what turns it over; on 8 mm, points of the joint 1 mm apart were merged, and it fell at 0.85."""
+    drum = PileStone("drum", size, size, 0.2 * size, shape=ROUND, inset=EdgeWear(share=0.12))
+    box = PileStone("box", 0.82 * size, 1.12 * size, 0.85 * size, on="drum", inset=EdgeWear(share=0.12))
+    part = np.clip(np.arange(2000) / 1600.0, 0.0, 1.0)
+    for share, falls in ((0.97, False), (1.03, True)):
+        push = -share * 0.38 * 0.82 / 0.425 * G * part
+        motion = Motion(np.array([push, 0.0 * push, 0.0 * push]), 0.01 * math.sqrt(size))
+        outcome = solve_stack(Pile("pile", (drum, box), fixed=("drum",), mu=1.2), motion, stop_at_fall=True).outcome
+        assert (outcome.max_tilt_rad["box"] > 1e-3) == falls

@@ -20,8 +20,9 @@ _t = types()
 MIN_NORMAL_LENGTH = 1e-9
 """Length below which a cross product of two directions counts as zero."""
 
-MERGE_DISTANCE = 1e-3
-"""Distance, m, below which two points are merged."""
+MERGE_RATIO, MERGE = 2e-3, 4
+"""Distance below which two points are merged, over the smallest half side or radius of both faces; and the lower face's column that holds
+it, m."""
 
 MAX_SHARED_POINTS = 16
 IS_LOWEST, POINT_NORMAL = 4, 5
@@ -40,6 +41,11 @@ def _outline(box, side, corners, boxes, rims, plan):
     plan[3] = boxes[box, 2] if side == 1 else -boxes[box, 2]
 
 
+@kernel(_t.float64(VECTOR), inline=True)
+def _smallest_half_side(plan):
+    return plan[0] if plan[0] > 0.0 else min(plan[1], plan[2])
+
+
 @kernel(_t.boolean(_t.float64, _t.float64, VECTOR), inline=True)
 def _inside_outline(x, y, plan):
     """Return whether a point lies inside an outline, within a margin."""
@@ -49,8 +55,8 @@ def _inside_outline(x, y, plan):
     return abs(x) < plan[1] + FACE_MARGIN and abs(y) < plan[2] + FACE_MARGIN
 
 
-@kernel(_t.int64(_t.int64, _t.float64, VECTOR, VECTOR, _t.float64, MATRIX))
-def _add_point(count, rise, y, normal, is_lowest, points):
+@kernel(_t.int64(_t.int64, _t.float64, VECTOR, VECTOR, _t.float64, _t.float64, MATRIX))
+def _add_point(count, rise, y, normal, is_lowest, merge_distance, points):
     """Append a point at a height above a face unless it duplicates one; return the number of points."""
     size = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
     # parallel tangents have no common normal: the outlines touch without crossing
@@ -58,7 +64,7 @@ def _add_point(count, rise, y, normal, is_lowest, points):
         return count
     # two rows for one point would leave the shares of its load undetermined
     for i in range(count):
-        if (points[i, 0] - y[0]) ** 2 + (points[i, 1] - y[1]) ** 2 + (points[i, 2] - y[2]) ** 2 < MERGE_DISTANCE**2:
+        if (points[i, 0] - y[0]) ** 2 + (points[i, 1] - y[1]) ** 2 + (points[i, 2] - y[2]) ** 2 < merge_distance**2:
             return count
     for k in range(3):
         points[count, k] = y[k]
@@ -131,7 +137,7 @@ def _contained_points(count, side, view, lower_face, upper_face, work, points):
         if _inside_outline(y[0], y[1], lower_face):
             # the first point of a rim is its lowest
             is_lowest = 1.0 if q == 0 and upper_face[0] > 0.0 else 0.0
-            count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, is_lowest, points)
+            count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, is_lowest, lower_face[MERGE], points)
     for i in range(3):
         normal[i] = view[3 * i + 2] if side * view[8] > 0.0 else -view[3 * i + 2]
     # points of the lower outline inside the upper one, at quarter turns from its first point
@@ -145,7 +151,7 @@ def _contained_points(count, side, view, lower_face, upper_face, work, points):
         y[2] = _plane_height(y[0], y[1], view, upper_face[3])
         d0, d1, d2 = y[0] - view[REL_D], y[1] - view[REL_D + 1], y[2] - view[REL_D + 2]
         if _inside_outline(view[0] * d0 + view[3] * d1 + view[6] * d2, view[1] * d0 + view[4] * d1 + view[7] * d2, upper_face):
-            count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, 0.0, points)
+            count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, 0.0, lower_face[MERGE], points)
     return count
 
 
@@ -186,7 +192,7 @@ def _rim_rim_points(count, side, view, lower_face, upper_face, work, points):
                 high, at_high, at_low = middle, at_middle, 0.5 * at_low
         tangent[0], tangent[1], tangent[2] = -y[1], y[0], 0.0
         _common_normal(side, tangent, direction, normal)
-        count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, 0.0, points)
+        count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, 0.0, lower_face[MERGE], points)
     return count
 
 
@@ -234,7 +240,7 @@ def _side_rim_points(count, side, view, lower_face, upper_face, work, points):
             else:
                 direction[2] = 0.0
             _common_normal(side, tangent, direction, normal)
-            count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, 0.0, points)
+            count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, 0.0, lower_face[MERGE], points)
     return count
 
 
@@ -262,6 +268,7 @@ def face_overlap_points(c, p, rel, corners, boxes, rims, axis, work, points):
     upper_side = -side if rel[8] > 0.0 else side
     _outline(p, 1 if side > 0.0 else 0, corners, boxes, rims, lower_face)
     _outline(c, 1 if upper_side > 0.0 else 0, corners, boxes, rims, upper_face)
+    lower_face[MERGE] = MERGE_RATIO * min(_smallest_half_side(lower_face), _smallest_half_side(upper_face))
     gap = _face_gap(side, rel, lower_face, upper_face)
     for i in range(3):
         for j in range(3):

@@ -32,6 +32,7 @@ from seisblock.models.stack.warm_start import (
     distribute_load,
     has_lost_loaded_point,
     match_point,
+    match_radius,
     project_to_plane,
     save_slots,
     store_point,
@@ -133,7 +134,7 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, pile, memory):
     if axis[KIND] >= EDGE_EDGE:
         if edges_cross(rel, c, p, pile, axis, scratch, candidates[0]):
             store_point(slots[0], candidates[0, 0], candidates[0, 1], candidates[0, 2], axis)
-            match_point(slots[0], old_slots, max_points)
+            match_point(slots[0], old_slots, max_points, match_radius(c, p, pile.boxes))
             new_count = add_contact(count, c, p, slots[0], gap, max_gap, k, bodies, pile, memory)
             count = register_slot(count, new_count, FROM_PAIR, pair, 0, 0, slots[0], memory.contact_ids)
         # the first slot belongs to the crossing of the edges
@@ -146,7 +147,7 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, pile, memory):
             continue
         slot = slots[first_slot + i]
         store_point(slot, candidates[i, 0], candidates[i, 1], candidates[i, 2], axis[FACE_AXIS:])
-        match_point(slot, old_slots, max_points)
+        match_point(slot, old_slots, max_points, match_radius(c, p, pile.boxes))
         new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, pile, memory)
         count = register_slot(count, new_count, FROM_PAIR, pair, 0, first_slot + i, slot, memory.contact_ids)
     return count
@@ -180,7 +181,7 @@ def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, pile, memory):
             store_point(rim[q], y0, y1, y2, axis)
         if is_flat and not (has_lost_loaded_point(4, rim, old_rim, MAX_SHIFT_RATIO * radius) and distribute_load(4, rim, loads, ground)):
             for q in range(4):
-                match_point(rim[q], old_rim, 4)
+                match_point(rim[q], old_rim, 4, match_radius(c, p, pile.boxes))
         for q in range(4):
             slot = rim[q]
             new_count = add_contact(count, c, p, slot, slot[POSITION + 2] - pile.boxes[p, 2], max_gap, k, bodies, pile, memory)
@@ -238,7 +239,7 @@ def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, pile, memory):
     for i in range(points):
         slot = slots[i]
         if not is_redistributed:
-            match_point(slot, old_slots, MAX_SHARED_POINTS)
+            match_point(slot, old_slots, MAX_SHARED_POINTS, match_radius(c, p, pile.boxes))
         new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, pile, memory)
         if new_count > count:
             set_rim_contact(candidates[i, IS_LOWEST] > 0.0, sine, up * radius, axes, frame, memory.constraint_rows[count])

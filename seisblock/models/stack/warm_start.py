@@ -17,8 +17,8 @@ from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_S
 
 _t = types()
 
-MATCH_RADIUS = 0.02
-"""Largest distance, m, between an old and a new contact point that are matched."""
+MATCH_RATIO = 0.08
+"""Largest distance between an old and a new contact point that are matched, over half the length of the smaller stone."""
 
 MAX_SHIFT_RATIO = 1e-3
 """Largest shift of a point on a flat face, over the stone's size, at which it keeps its force."""
@@ -53,11 +53,17 @@ def save_slots(count, slots, old_slots):
         slots[i, ACTIVE] = 0.0
 
 
-@kernel(_t.void(VECTOR, MATRIX, _t.int64), inline=True)
-def match_point(slot, old_slots, count):
-    """Warm-start a contact from the nearest unmatched point of the last step."""
+@kernel(_t.float64(_t.int64, _t.int64, MATRIX), inline=True)
+def match_radius(c, p, boxes):
+    """Return the largest distance between an old and a new contact point of two stones that are matched, m."""
+    return MATCH_RATIO * min(max(boxes[c, 0], max(boxes[c, 1], boxes[c, 2])), max(boxes[p, 0], max(boxes[p, 1], boxes[p, 2])))
+
+
+@kernel(_t.void(VECTOR, MATRIX, _t.int64, _t.float64), inline=True)
+def match_point(slot, old_slots, count, radius):
+    """Warm-start a contact from the nearest unmatched point of the last step within `radius`, m."""
     # a point farther away belongs to another contact: its force would be a worse guess than none
-    match, min_distance_squared = -1, MATCH_RADIUS**2
+    match, min_distance_squared = -1, radius * radius
     for i in range(count):
         old = old_slots[i]
         if old[ACTIVE] > 0.0:
