@@ -161,11 +161,11 @@ class PileState(NamedTuple):
     bodies: FloatArray
 
 
-SAMPLE, STEP, ROW_COUNT, SAMPLES_SINCE_ROW, HAS_FALLEN, STEPS_REMAINING, FIRST_SAMPLE = range(7)
+SAMPLE, STEP, ROW_COUNT, SAMPLES_SINCE_ROW, HAS_FALLEN, STEPS_REMAINING, FIRST_SAMPLE, STILL_SAMPLES = range(8)
 """Counters of a run: sample, step within the sample, rows stored, samples since the last row, fall in this sample (0 or 1), steps left
-before the loop pauses, and index of the first sample of the motion array passed to the loop."""
+before the loop pauses, index of the first sample of the motion array passed to the loop, and samples for which all stones were still."""
 
-N_COUNTERS = 7
+N_COUNTERS = 8
 
 
 class PileOutput(NamedTuple):

@@ -21,6 +21,7 @@ from seisblock.models.stack.buffers import (
     STATE,
     STEP,
     STEPS_REMAINING,
+    STILL_SAMPLES,
 )
 from seisblock.models.stack.frames import MASS, R, V, W, X
 
@@ -28,6 +29,10 @@ _t = types()
 
 STILL_SPEED = 1e-3
 """Speed, m/s, and spin, rad/s, below which a stone is still."""
+
+STILL_INTERVALS = 5
+"""Row intervals through which all stones are still when a run ends: a stone that turns back, or passes its critical angle, is still for a
+moment."""
 
 MIN_COSINE, FALL_TIME, FALL_X, FALL_Y, TILT_LIMIT, HEIGHT_LIMIT = range(6)
 FALL_COLUMNS = 6
@@ -166,7 +171,8 @@ def finish_sample(settings, state):
     # the sample of the fall is completed, so that the row and the ledger are consistent
     if counters[HAS_FALLEN] == 1:
         return STOPPED
-    if s == settings.last or (s >= settings.record_end and _is_still(bodies.shape[0] - 1, bodies)):
+    counters[STILL_SAMPLES] = counters[STILL_SAMPLES] + 1 if _is_still(bodies.shape[0] - 1, bodies) else 0
+    if s == settings.last or (s >= settings.record_end and counters[STILL_SAMPLES] > STILL_INTERVALS * settings.max_row_interval):
         return RECORD_ENDED
     counters[STEP] = 0
     counters[SAMPLE] = s + 1
