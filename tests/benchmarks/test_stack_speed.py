@@ -16,7 +16,7 @@ from seisblock.records import Motion
 
 WIDTH = 0.2424
 SECONDS = 10.0
-MINIMUM = {1: 3.5, 5: 8.0}
+MINIMUM = {1: 2.5, 5: 7.0}
 """How many times as fast as MuJoCo at 1 and at 2 ms rigid stones are at least, by their number. One stone converges 100 times further
 than its tolerance, so that its images move alike."""
 
