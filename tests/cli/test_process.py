@@ -53,6 +53,17 @@ for words in {lines!r}:
     assert {name: found for name, modules in loaded.items() if (found := modules.intersection(heavy))} == {}
 
 
+def test_uplift_loads_no_scipy():
+    """To load SciPy's linear algebra would take a third of the time of a warm command."""
+    script = """
+import sys
+from seisblock.cli import main
+main(["uplift", "sine:100gal@2Hz,1s", "--json"], standalone_mode=False)
+assert "scipy.linalg" not in sys.modules
+"""
+    subprocess.run([sys.executable, "-c", script], capture_output=True, check=True)
+
+
 def test_start_time_is_at_most_twice_python_with_click():
     """The list of commands takes twice the processor time of a Python that loads click alone (the best of five in turn, on any machine)."""
 

@@ -67,8 +67,8 @@ def natural_modes(body: SpringBlock) -> Modes:
 
     Notes
     -----
-    K q = omega^2 M q of [Okumura1987]_ eqs. (3) to (5), solved by ``scipy.linalg.eigh`` in each of the four uncoupled groups of
-    coordinates, so that equal frequencies of a square base do not mix the directions.
+    K q = omega^2 M q of [Okumura1987]_ eqs. (3) to (5), solved in each of the four uncoupled groups of coordinates,
+    so that equal frequencies of a square base do not mix the directions.
 
     Examples
     --------
@@ -77,16 +77,16 @@ def natural_modes(body: SpringBlock) -> Modes:
     >>> modes.names[-1], round(modes.frequencies_hz[-1], 12)
     ('second rocking in y-z', 1.732050807569)
     """
-    from scipy.linalg import eigh
-
     checks.instance(body, SpringBlock)
-    mass, stiffness = mass_matrix(body), stiffness_matrix(body)
+    masses, stiffness = np.diag(mass_matrix(body)), stiffness_matrix(body)
+    # M is diagonal: a symmetric problem in the coordinates M^1/2 q
+    scale = np.sqrt(masses)
+    scaled = stiffness / np.outer(scale, scale)
     modes: list[tuple[float, str, FloatArray]] = []
     for labels, members in UNCOUPLED_COORDINATES.items():
-        block = np.ix_(members, members)
-        squares, vectors = eigh(stiffness[block], mass[block])
-        for rank, (square, vector) in enumerate(zip(squares, vectors.T, strict=True)):
-            shape = np.zeros(6)
+        squares, vectors = np.linalg.eigh(scaled[np.ix_(members, members)])
+        for rank, (square, scaled_vector) in enumerate(zip(squares, vectors.T, strict=True)):
+            vector, shape = scaled_vector / scale[list(members)], np.zeros(6)
             shape[list(members)] = vector * np.copysign(1.0, vector[np.argmax(np.abs(vector))])
             modes.append((math.sqrt(square), labels[rank], shape))
     modes.sort(key=lambda mode: mode[0])
