@@ -27,6 +27,7 @@ from seisblock.core.units import (
     FigureSize,
     parse_length,
     parse_mass,
+    parse_quantity,
     to_halfwidth,
 )
 from seisblock.records.floor import parse_storey
@@ -171,11 +172,11 @@ class FloatWithUnit(Finite):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number in the default unit."""
-        text = to_halfwidth(value).strip().lower() if isinstance(value, str) else ""
-        units = [unit for unit in self._units if text.endswith(unit) and text.removesuffix(unit).rstrip()[-1:] in "0123456789."]
-        if units:
-            return round(super().convert(text.removesuffix(units[0]), param, ctx) * self._units[units[0]] / self._default, 12)
-        return super().convert(value, param, ctx)
+        try:
+            number, has_unit = parse_quantity(value.lower() if isinstance(value, str) else value, self._units, quantity=self.name)
+        except InputError:
+            has_unit = False
+        return round(number / self._default, 12) if has_unit else super().convert(value, param, ctx)
 
 
 class Floats(click.ParamType):  # type: ignore[type-arg]

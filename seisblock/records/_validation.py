@@ -1,13 +1,16 @@
-"""Validation of the common solver inputs: body, motion and vertical gain."""
+"""Validation of the common solver inputs: body, motion and gains."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import TypeAlias
 
+import numpy as np
+
 from seisblock.core import checks
-from seisblock.core.errors import ComponentError, KindError
+from seisblock.core.errors import ComponentError, KindError, ParameterError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import ArrayLike, FloatArray
 from seisblock.records.motion import Motion
 from seisblock.records.record import Record
 
@@ -55,6 +58,24 @@ def validate_motion(motion: object) -> None:
             "expected a Motion, found {found}: create one with motion_of(record, 'EW') or Motion.from_arrays(...)",
             found=checks.type_name(motion),
         )
+
+
+def gain_rows(gains: ArrayLike, count: int | None = None) -> FloatArray:
+    """Return the gains of runs, (1, 3) or (count, 3); without a count any number of rows.
+
+    Raises
+    ------
+    ParameterError
+        If they are no numbers or have another shape.
+    """
+    values = checks.float_array("`gains`", gains)
+    rows = np.atleast_2d(values)
+    count = len(rows) if count is None else count
+    if rows.shape not in ((1, 3), (count, 3)):
+        raise ParameterError(
+            "`gains` must have shape (3,) or ({rows}, 3), one row per run, found {shape}", rows=count, shape=str(values.shape)
+        )
+    return rows
 
 
 def vertical_gain(motion: Motion, vertical: Gain | None) -> float:

@@ -24,7 +24,7 @@ from seisblock.models.respond import constants
 from seisblock.models.respond.params import FLAT_SHARE, Initial, RespondBatchParams, RespondParams
 from seisblock.models.respond.run import are_rest, check_settling, zero_motion
 from seisblock.records import Motion
-from seisblock.records._validation import validate_motion
+from seisblock.records._validation import gain_rows, validate_motion
 
 MIN_ROWS_PER_TASK = 8
 """Smallest number of rows per task: run times differ, from immediate overturning to a minute of rebounds."""
@@ -147,12 +147,7 @@ def respond_many(
         raise ParameterError("`params` is empty: at least one row is required")
     for row_params in () if isinstance(params, RespondBatchParams) else params:
         checks.instance(row_params, RespondParams)
-    rows = checks.float_array("`gains`", gains)
-    if rows.shape not in ((3,), (1, 3), (len(params), 3)):
-        raise ParameterError(
-            "`gains` must have shape (3,) or ({rows}, 3), one row per run, found {shape}", rows=len(params), shape=str(rows.shape)
-        )
-    rows = np.array(np.broadcast_to(rows, (len(params), 3)))
+    rows = np.array(np.broadcast_to(gain_rows(gains, len(params)), (len(params), 3)))
     chunk_size = max(MIN_ROWS_PER_TASK, SAMPLES_PER_TASK // motion.samples)
     pool, cancel_event = ThreadPoolExecutor(workers or os.cpu_count()), Event()
     events = (*current_events(), cancel_event)

@@ -15,7 +15,7 @@ from seisblock.dynamics import integrate_many
 from seisblock.models.uplift.batch_results import CHANGE_FACTOR, UpliftBatchResult, batch_end_states, batch_result
 from seisblock.models.uplift.constants import ALL_CORNERS, FIRST, GLUED
 from seisblock.models.uplift.model import UPLIFT, parameters, static_state
-from seisblock.records._validation import validate_motion
+from seisblock.records._validation import gain_rows, validate_motion
 from seisblock.records.motion import Motion
 
 
@@ -54,12 +54,8 @@ def uplift_many(
         raise ParameterError("`bodies` is empty: at least one body is required")
     for body in bodies:
         checks.instance(body, SpringBlock)
-    rows = np.atleast_2d(checks.float_array("`gains`", gains))
-    runs = len(rows) if len(bodies) == 1 else len(bodies)
-    if rows.shape not in ((1, 3), (runs, 3)):
-        raise ParameterError(
-            "`gains` must have shape (3,) or ({rows}, 3), one row per run, found {shape}", rows=runs, shape=str(np.shape(gains))
-        )
+    rows = gain_rows(gains, None if len(bodies) == 1 else len(bodies))
+    runs = max(len(bodies), len(rows))
     all_bodies = list(bodies) * runs if len(bodies) == 1 else list(bodies)
     p, initial_states = parameters(bodies, gravity, motion.dt), np.array([static_state(body, gravity) for body in all_bodies])
     p = np.repeat(p, runs, axis=0) if len(bodies) == 1 else p

@@ -93,14 +93,14 @@ def looks_like_csv(lines: Sequence[str]) -> bool:
     body = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
     if body is None:
         return False
-    separator = stated_separator(lines) or find_separator(lines[body])
+    separator = _separator_of(lines[body], lines)
     if _is_numeric_row(lines[body], separator):
         return True
     names = _split_cells(lines[body], separator)
     next_line = next((line for line in lines[body + 1 :] if is_data_line(line)), "")
     if is_header_row(names) or merge_unit_row(names, _unit_cells(next_line, separator)):
         return True
-    separator = stated_separator(lines) or find_separator(next_line)
+    separator = _separator_of(next_line, lines)
     return _is_numeric_row(next_line, separator) and len(_split_cells(next_line, separator)) == len(names)
 
 
@@ -154,7 +154,7 @@ def find_layout(name: str, lines: Sequence[str]) -> TableLayout:
     first = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
     if first is None:
         raise RecordFormatError("{name}: comments only; expected columns of numbers", name=name)
-    separator = stated_separator(lines) or find_separator(lines[first])
+    separator = _separator_of(lines[first], lines)
     if not _is_numeric_row(lines[first], separator):
         names = tuple(_split_cells(lines[first], separator))
         units_line = next((i for i, line in enumerate(lines[first + 1 :], first + 1) if is_data_line(line)), first)
@@ -192,6 +192,11 @@ def find_separator(line: str) -> str | None:
     # the comma after semicolons and tabs: beside them it may be a decimal comma
     mark = next((mark for mark in (";", "\t", ",", "|") if mark in line), None)
     return None if mark == "|" and _ABSOLUTE_VALUE.search(line) else mark
+
+
+def _separator_of(line: str, lines: Sequence[str]) -> str | None:
+    """Return the separator that the table states, else that of a line."""
+    return stated_separator(lines) or find_separator(line)
 
 
 def is_data_line(line: str) -> bool:
