@@ -125,7 +125,7 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, pile, memory):
     """Add rows for the contact manifold of two boxes; return the number of rows."""
     c, p, k, scratch = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.scratch
     slots, old_slots, axis, candidates = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], scratch[29], scratch[4:20]
-    first_slot, max_points = 0, max_contact_points(c, p, pile)
+    first_slot, max_points, reach = 0, max_contact_points(c, p, pile), match_radius(c, p, pile.boxes)
     # the manifold may change between steps: its points are matched to the old ones by position
     save_slots(max_points, slots, old_slots)
     gap = gap_between(rel, c, p, max_gap, pile, scratch, axis)
@@ -134,7 +134,7 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, pile, memory):
     if axis[KIND] >= EDGE_EDGE:
         if edges_cross(rel, c, p, pile, axis, scratch, candidates[0]):
             store_point(slots[0], candidates[0, 0], candidates[0, 1], candidates[0, 2], axis)
-            match_point(slots[0], old_slots, max_points, match_radius(c, p, pile.boxes))
+            match_point(slots[0], old_slots, max_points, reach)
             new_count = add_contact(count, c, p, slots[0], gap, max_gap, k, bodies, pile, memory)
             count = register_slot(count, new_count, FROM_PAIR, pair, 0, 0, slots[0], memory.contact_ids)
         # the first slot belongs to the crossing of the edges
@@ -147,7 +147,7 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, pile, memory):
             continue
         slot = slots[first_slot + i]
         store_point(slot, candidates[i, 0], candidates[i, 1], candidates[i, 2], axis[FACE_AXIS:])
-        match_point(slot, old_slots, max_points, match_radius(c, p, pile.boxes))
+        match_point(slot, old_slots, max_points, reach)
         new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, pile, memory)
         count = register_slot(count, new_count, FROM_PAIR, pair, 0, first_slot + i, slot, memory.contact_ids)
     return count
@@ -163,7 +163,7 @@ def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, pile, memory):
         axis[i] = 1.0 if i == 2 else 0.0
         axes[0, i] = rel[3 * i + 2]
     load_directions(slots, rel, pile.boxes[c, 0], axes[1])
-    sine = lowest_rim_point(0.0, 0.0, 1.0, axes)
+    sine, reach = lowest_rim_point(0.0, 0.0, 1.0, axes), match_radius(c, p, pile.boxes)
     for i in range(RIMS):
         radius, height = pile.rims[c, i, RADIUS], pile.rims[c, i, HEIGHT]
         if radius == 0.0:
@@ -181,7 +181,7 @@ def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, pile, memory):
             store_point(rim[q], y0, y1, y2, axis)
         if is_flat and not (has_lost_loaded_point(4, rim, old_rim, MAX_SHIFT_RATIO * radius) and distribute_load(4, rim, loads, ground)):
             for q in range(4):
-                match_point(rim[q], old_rim, 4, match_radius(c, p, pile.boxes))
+                match_point(rim[q], old_rim, 4, reach)
         for q in range(4):
             slot = rim[q]
             new_count = add_contact(count, c, p, slot, slot[POSITION + 2] - pile.boxes[p, 2], max_gap, k, bodies, pile, memory)
@@ -235,11 +235,11 @@ def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, pile, memory):
         and has_lost_loaded_point(points, slots, old_slots, MAX_SHIFT_RATIO * radius)
         and sum_joint_load(old_slots[:MAX_SHARED_POINTS], frame, loads)
     )
-    is_redistributed = is_flat and distribute_load(points, slots, loads, frame)
+    is_redistributed, reach = is_flat and distribute_load(points, slots, loads, frame), match_radius(c, p, pile.boxes)
     for i in range(points):
         slot = slots[i]
         if not is_redistributed:
-            match_point(slot, old_slots, MAX_SHARED_POINTS, match_radius(c, p, pile.boxes))
+            match_point(slot, old_slots, MAX_SHARED_POINTS, reach)
         new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, pile, memory)
         if new_count > count:
             set_rim_contact(candidates[i, IS_LOWEST] > 0.0, sine, up * radius, axes, frame, memory.constraint_rows[count])
