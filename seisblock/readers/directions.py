@@ -8,12 +8,21 @@ from dataclasses import dataclass, replace
 from seisblock.records.azimuth import bearing_to_azimuth
 
 _COMPASS_WORDS = {
-    0.0: ("ns", "sn", "n", "north", "northsouth", "southnorth", "northward", "南北"),
-    90.0: ("ew", "we", "e", "east", "eastwest", "westeast", "eastward", "東西"),
+    0.0: (
+        *("ns", "sn", "n", "north", "northsouth", "southnorth", "northward", "南北", "南北向"),
+        *("norte", "nortesur", "nord", "nordsud", "nordsüd", "kuzey", "kuzeygüney", "kuzeyguney"),
+    ),
+    90.0: (
+        *("ew", "we", "e", "east", "eastwest", "westeast", "eastward", "東西", "東西向", "东西", "东西向"),
+        *("eo", "oe", "este", "esteoeste", "est", "estovest", "estouest", "ow", "wo", "ost", "ostwest", "doğu", "doğubatı", "dogubati"),
+    ),
     180.0: ("s", "south", "southward"),
     270.0: ("w", "west", "westward"),
 }
-_UP = ("ud", "u", "z", "up", "updn", "updown", "upward", "vertical", "vert", "ver", "v", "上下", "鉛直", "垂直")
+_UP = (
+    *("ud", "u", "z", "up", "updn", "updown", "upward", "vertical", "vert", "ver", "v", "上下", "鉛直", "垂直"),
+    *("垂直向", "竖向", "竖直", "竖直向", "verticale", "vertikal", "düşey", "dusey"),
+)
 _DOWN = ("d", "dwn", "down", "dn", "downward")
 _AXIS_WORDS = {
     "X": ("x",),
@@ -26,10 +35,14 @@ _AXIS_WORDS = {
 }
 _COMPASS_AZIMUTHS = {word: azimuth for azimuth, words in _COMPASS_WORDS.items() for word in words}
 _AXIS_CODES = {word: code for code, words in _AXIS_WORDS.items() for word in words}
+_TURKISH_AXES = {"k-g": 0.0, "d-b": 90.0}
+"""North-south and east-west as written in Turkish; KG and DB without the hyphen are units."""
+
+_ACCELERATION = r"(?:acc(?:el(?:eration)?)?|aceleraci[oó]n|acc[eé]l[eé]ration|accelerazione|beschleunigung|ivme)"
 _FILLER_WORDS = re.compile(
-    r"^(?:acc(?:el(?:eration)?)?|a|(?:component|comp|cmp|direction|dir)(?=[ ,_.:-]+\D))[ ,_.:-]+(?=.)"
+    rf"^(?:{_ACCELERATION}|a|(?:componente?|comp|cmp|direction|dir)(?=[ ,_.:-]+\D))[ ,_.:-]+(?=.)"
     r"|^(?:acc|a)(?=[xyz]$)|^acc(?=(?:ns|ew|ud)$)|(?<=^ns|^ew|^ud)acc$"
-    r"|(?<=.)[ ,_.-]+(?:acc(?:el(?:eration)?)?|component|comp|cmp|direction|dir)\.?$"
+    rf"|(?<=.)[ ,_.-]+(?:{_ACCELERATION}|componente?|comp|cmp|direction|dir)\.?$"
     r"|(?<!\d)(?:加速度|成分|方向|波形|向き)(?!\s*\d)|(?<=[北西下直nsewudzxy])動$",
     re.IGNORECASE,
 )
@@ -134,7 +147,8 @@ def parse_direction(text: str) -> Direction | None:
     text : str
         ``NS``, ``N-S``, ``E/W``, ``SN``, ``WE``, ``north``, ``東西``; ``N10E``, ``N120E``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``,
         ``Z``; ``L``, ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``; also
-        with a word for component: ``UD成分``, ``東西方向``, ``上下動``, ``NS component``. A lone ``T`` is excluded: it may be the time.
+        with a word for component: ``UD成分``, ``東西方向``, ``上下動``, ``NS component``; in Spanish, Italian, German, French, Turkish and
+        Chinese: ``E-O``, ``O-W``, ``K-G``, ``verticale``, ``东西向``. A lone ``T`` is excluded: it may be the time.
 
     Examples
     --------
@@ -146,8 +160,9 @@ def parse_direction(text: str) -> Direction | None:
     text = strip_component_words(text)
     word = re.sub(r"[\s_\-./]", "", text)
     key = word.lower()
-    if key in _COMPASS_AZIMUTHS:
-        return direction_from_azimuth(_COMPASS_AZIMUTHS[key])
+    azimuth = _COMPASS_AZIMUTHS.get(key, _TURKISH_AXES.get(text.lower()))
+    if azimuth is not None:
+        return direction_from_azimuth(azimuth)
     if key in _UP:
         return Direction("UD")
     if key in _DOWN:

@@ -81,7 +81,7 @@ def read_lines(blob: RawFile) -> Sequence[str]:
     if len(data) < source.LARGE_FILE_BYTES or not _has_simple_line_ends(blob):
         return decode_text(blob).split("\n")
     offsets, count = _chunk_offsets(blob)
-    for encoding in ("utf-8", *source.japanese_encodings(data[: source.HEAD_BYTES])):
+    for encoding in source.text_encodings(data[: source.HEAD_BYTES + 1]):
         lines = LazyLines(data, encoding, offsets, 0, count)
         try:
             # decode all chunks once: an invalid byte may occur anywhere

@@ -36,8 +36,11 @@ HEAD_BYTES = 2**16
 """Bytes examined to determine the encoding."""
 
 _HALF_WIDTH_KANA = re.compile("[｡-ﾟ\uf8f0-\uf8f3]")
-_TABLE_KANJI = re.compile("[時刻間秒南北東西上下方向成分速度動]")
-"""Half-width kana that EUC-JP bytes give when decoded as Shift-JIS, and kanji common in table headings."""
+_TABLE_KANJI = re.compile("[時刻間秒南北東西上下方向成分速度動时间东竖垂直]")
+_ACCENTED = re.compile(rb"(?<=[A-Za-z])[\xc0-\xff](?:[\xc0-\xff](?=[a-z]))?(?![\x80-\xff])")
+_NOT_EUROPEAN = re.compile(rb"[\x80-\xaf\xb1\xb3-\xff]")
+"""Half-width kana that other bytes give when decoded as Shift-JIS; kanji common in table headings; accented letters within European words,
+and bytes that beside them are neither a degree sign nor a superscript."""
 
 LARGE_FILE_BYTES = 2**25
 """Size above which files and texts are processed in chunks."""
@@ -230,17 +233,15 @@ def normalize_text(blob: RawFile) -> RawFile:
 
 
 def decode_text(blob: RawFile) -> str:
-    """Return the text of a file in UTF-8, UTF-16 with BOM, Shift-JIS (cp932) or EUC-JP, with LF line ends.
+    """Return the text of a file in one of :func:`text_encodings`, or UTF-16 with BOM, with LF line ends.
 
     Raise RecordFormatError if the bytes are none of these.
     """
     data = blob.data
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
-        encodings = ["utf-16"]
-    elif is_binary(data):
-        encodings = []
+        encodings: tuple[str, ...] = ("utf-16",)
     else:
-        encodings = ["utf-8-sig", *japanese_encodings(data)]
+        encodings = () if is_binary(data) else text_encodings(data)
     for encoding in encodings:
         try:
             return data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
@@ -249,22 +250,34 @@ def decode_text(blob: RawFile) -> str:
     raise RecordFormatError("{name}: not a text file (UTF-8, Shift-JIS or EUC-JP): expected a record in a text format", name=blob.name)
 
 
-def japanese_encodings(data: bytes) -> tuple[str, str]:
-    """Return the two Japanese encodings, the more probable first.
+def text_encodings(data: bytes) -> tuple[str, ...]:
+    """Return the encodings of a text, the most probable first: UTF-8, then those of Japan, of China, or of Europe with Turkey.
 
     Examples
     --------
-    >>> japanese_encodings("UD方向(gal)".encode("euc_jp"))[0], japanese_encodings("UD方向(gal)".encode("cp932"))[0]
-    ('euc_jp', 'cp932')
+    >>> [text_encodings(text.encode(e))[1] for text, e in (("UD方向", "euc_jp"), ("UD方向", "cp932"), ("东西向", "gb18030"))]
+    ['euc_jp', 'cp932', 'gb18030']
+    >>> text_encodings("Aceleración N-S (gal)".encode("cp1254"))[1]
+    'cp1254'
     """
     head = data[:HEAD_BYTES]
-    try:
-        as_euc = head.decode("euc_jp", errors="ignore" if len(data) > HEAD_BYTES else "strict")
-    except UnicodeDecodeError:
-        return "cp932", "euc_jp"
-    # EUC-JP decoded as Shift-JIS yields half-width kana; require kanji of table headings before preferring EUC-JP
-    kana = _HALF_WIDTH_KANA.search(head.decode("cp932", errors="ignore"))
-    return ("euc_jp", "cp932") if kana and _TABLE_KANJI.search(as_euc) else ("cp932", "euc_jp")
+    if head.isascii():
+        return ("utf-8-sig", "cp932", "euc_jp")
+    without_accents = _ACCENTED.sub(b"", head)
+    if without_accents != head and not _NOT_EUROPEAN.search(without_accents):
+        return ("utf-8-sig", "cp1254")
+    texts: dict[str, str] = {}
+    for encoding in ("cp932", "euc_jp", "gb18030", "big5"):
+        try:
+            texts[encoding] = head.decode(encoding, errors="ignore" if len(data) > HEAD_BYTES else "strict")
+        except UnicodeDecodeError:
+            continue
+    # other encodings decoded as Shift-JIS yield half-width kana; require kanji of table headings before preferring them
+    if "cp932" in texts and not _HALF_WIDTH_KANA.search(texts["cp932"]):
+        return ("utf-8-sig", "cp932", "euc_jp")
+    counts = {encoding: len(_TABLE_KANJI.findall(text)) for encoding, text in texts.items()}
+    best = max(counts, key=lambda encoding: counts[encoding], default="cp932")
+    return tuple(dict.fromkeys(("utf-8-sig", *([best] if counts.get(best) else []), "cp932", "euc_jp")))
 
 
 def is_binary(data: bytes) -> bool:

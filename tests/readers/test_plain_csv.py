@@ -452,3 +452,101 @@ def test_interval_option_must_agree_with_time_column(table, dt, accepted):
     else:
         with pytest.raises(ParameterError, match=r"interval of the time column .* contradicts `dt`"):
             read(path, dt=dt)
+
+
+@pytest.mark.parametrize(
+    ("header", "row"),
+    [("time (ms),NS (gal)", "{t},{a},5"), ("NS (gal),EW (gal)", '"{a},5","{a},2"'), ("time (s) NS (gal)", "0.{t:03} {a} 5")],
+)
+def test_row_with_more_cells_than_names_is_refused(table, header, row):
+    """Commas of decimals split every number in two: the first cells were read, 12,5 gal as 12, and 0,2 of the next column as 5."""
+    rows = [row.format(t=10 * i, a=i % 7) for i in range(40)]
+    with pytest.raises(RecordFormatError, match=r"line 2: expected 2 cells, found [34]"):
+        read(table("\n".join([header, *rows, ""])), dt=None if "time" in header else 0.01)
+
+
+def test_blank_cells_beyond_names_are_accepted(table):
+    """Trailing commas, as a spreadsheet writes them, are no cells; a number there is one, in whatever line."""
+    rows = [f"{i / 100:.2f},{i % 7},,," for i in range(40)]
+    assert read(table("\n".join(["time,NS (gal)", *rows, ""]))).samples == 40
+    rows[30] = "0.30,2,,8,"
+    with pytest.raises(RecordFormatError, match="line 32: expected 2 cells"):
+        read(table("\n".join(["time,NS (gal)", *rows, ""])))
+
+
+@pytest.mark.parametrize("separator", [".", ","])
+def test_separators_of_thousands_are_refused(table, separator):
+    """Whole numbers of a spreadsheet, 998 and 1.014: the largest were read as the smallest."""
+    cells = [f"{v:,}".replace(",", separator) for v in (1500, 20, 998, -1014, 3, 0, 512)]
+    with pytest.raises(RecordFormatError, match=r"whole numbers up to 998 with 1\.500: separators of thousands\?"):
+        read(table("\n".join(["NS (mm/s2);EW (mm/s2)", *(f"{cell};1" for cell in cells), ""])), dt=0.01)
+
+
+@pytest.mark.parametrize("values", [(998, 0.5, 1.5), (998, 100.25, 512), (499, 1.014, 3), (1001, 1.014, 998), (998, 1.0145, 3)])
+def test_decimals_beside_whole_numbers_are_no_thousands(table, values):
+    """Below 1, above 100, without numbers near a thousand, beyond it or with four decimals, a point is a decimal point."""
+    record = read(table("\n".join(["NS (mm/s2)", *(f"{value:g}" for value in values), ""])), dt=0.01)
+    np.testing.assert_allclose(record.component("NS").acceleration, np.array(values) / 1000.0, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "time (s);NS (gal)\n0;0\n0,01;1,5\n0,02;-2,25\n",
+        "time (s)  NS (gal)\n0,00  0,00\n0,01  1,50\n0,02  -2,25\n",
+        "0,00  0,00\n0,01  1,50\n0,02  -2,25\n",
+        "NS (gal)\n0,00\n1,50\n-2,25\n",
+    ],
+    ids=["zero first", "blanks", "blanks, no names", "one column"],
+)
+def test_decimal_commas_without_semicolons_or_after_zeros(table, text):
+    """The first line of a spreadsheet is often 0;0; text files separate by blanks."""
+    record = read(table(text), units=None if "gal" in text else "gal", dt=None if "0,01" in text else 0.01)
+    np.testing.assert_array_equal(record.components[0].acceleration, [0.0, 0.015, -0.0225])
+
+
+@pytest.mark.parametrize(("first", "flags"), [("0", 0), ("-0", 0), ("1", 1), ("10", 1)])
+def test_zero_without_decimal_point_is_not_flagged(table, first, flags):
+    """A spreadsheet writes 0 for 0.00; any other number without the point of its column has lost it."""
+    rows = [f"{i / 100:.2f},{(i - 20) / 100:.2f}" for i in range(1, 60)]
+    record = read(table("\n".join(["time (s),NS (gal)", f"0.00,{first}", *rows, ""])))
+    assert sum(flag.kind == "point" for flag in record.doubts) == flags
+
+
+@pytest.mark.parametrize("rows", [["0,05", "1,50", "-0,25"], ["0,01,0,5", "0,02,0,7", "0,03,0,1"]], ids=["one column", "two columns"])
+def test_decimal_commas_between_commas_without_names_are_refused(table, rows):
+    """05 and -0 are no numbers of a table: halves of 0,05 and -0,25 were read as two components."""
+    with pytest.raises(RecordFormatError, match="decimal commas in a table separated by commas"):
+        read(table("\n".join([*rows, ""])), units="gal", dt=0.01)
+
+
+@pytest.mark.parametrize(
+    ("header", "encoding"),
+    [
+        ("Tiempo;Aceleración N-S (gal);Aceleración E-O (gal);Aceleración Z (gal)", "cp1252"),
+        ("Tempo (s);N-S (cm/s²);E-O (cm/s²);Verticale (cm/s²)", "utf-8"),
+        ("Zeit;NS (gal);OW (gal);Vertikal (gal)", "utf-8"),
+        ("Zaman (sn);K-G (gal);D-B (gal);Düşey (gal)", "cp1254"),
+        ("时间(s);南北向(gal);东西向(gal);竖向(gal)", "gb18030"),
+        ("時間(s);南北(gal);東西(gal);垂直(gal)", "big5"),
+        ("Temps (s);Accélération NS (gal);Accélération EO (gal);Verticale (gal)", "cp1252"),
+    ],
+    ids=["Spanish", "Italian", "German", "Turkish", "Chinese", "Taiwanese", "French"],
+)
+def test_headings_of_other_languages(table, header, encoding):
+    """Directions keep their meaning and the vertical is vertical, in the usual encodings."""
+    rows = "0,00;1;2;3\n0,01;4;5;6\n0,02;7;8;9\n"
+    record = read(table(header + "\n" + rows, encoding))
+    assert record.codes == ("NS", "EW", "UD")
+    np.testing.assert_array_equal(record.component("UD").acceleration, [0.03, 0.06, 0.09])
+
+
+@pytest.mark.parametrize("name", ["X軸", "NS波", "南北", "上下(UD)", "東西成分"])
+@pytest.mark.parametrize("encoding", ["cp932", "euc_jp", "utf-8"])
+def test_japanese_headings_are_not_taken_for_others(table, name, encoding):
+    """Bytes of Japanese beside Latin letters are no accented letters, nor Chinese."""
+    if encoding == "euc_jp" and name in ("X軸", "NS波"):
+        pytest.skip("no kanji of headings")
+    record = read(table(f"時間(秒),{name}(gal)\n0.00,1\n0.01,4\n0.02,7\n", encoding))
+    expected = {"X軸": "X軸", "NS波": "NS波", "南北": "NS", "上下(UD)": "UD", "東西成分": "EW"}
+    assert record.codes == (expected[name],)

@@ -37,6 +37,9 @@ from seisblock.readers.table.sampling import Timestamp, parse_timestamp, samplin
 from seisblock.records import Component, QCFlag, Record
 
 _QUOTED = re.compile(r'(?<![^\s,;|])"([^"]*)"(?![^\s,;|])')
+_SPLIT_DECIMALS = re.compile(r"(?:^|,)\s*(?:-0|[-+]?0\d+)\s*(?=,|$)")
+"""Cell that is no whole number, but half of a number with a decimal comma."""
+
 MIN_SERIES_LINES = 20
 """Fewest lines in which one series with several samples per line is recognised."""
 
@@ -216,6 +219,8 @@ def _read_unnamed(
 ) -> tuple[list[FloatArray], tuple[Message, ...]]:
     """Return the columns of a table without names, and history notes; one series with several samples per line becomes one column."""
     width, first_line = len(layout.names), layout.body + 1
+    if layout.separator == "," and any(map(_SPLIT_DECIMALS.search, body[:INSPECTED_LINES])) and not any("." in line for line in body):
+        raise RecordFormatError("{name}: decimal commas in a table separated by commas; write decimal points", name=name)
     last = next(i for i in reversed(range(len(body))) if body[i].strip())
     rest = body[last].rstrip(" \t" + (layout.separator or "")).split(layout.separator)
     full_lines = body[:last] if last > 0 and len(rest) < width else body

@@ -21,7 +21,8 @@ TAIL_LINES = 100
 """Lines at the end used to determine the decimals of the last number."""
 
 _DECIMALS = re.compile(r"[-+]?\d*\.(\d*)(?:[eEdD][-+]?\d+)?")
-_INTEGER = re.compile(r"[-+]?\d+")
+_INTEGER = re.compile(r"[-+]?(?!0+$)\d+")
+"""Whole number, but for zero, which loses nothing with its decimal point."""
 
 
 def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | None) -> tuple[QCFlag, ...]:

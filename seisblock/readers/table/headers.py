@@ -12,7 +12,10 @@ from seisblock.readers.directions import parse_direction, strip_component_words
 TIME = "TIME"
 
 _CODE_NAMES = {
-    "ACC": ("acc", "acceleration", "accel", "a", "加速度"),
+    "ACC": (
+        *("acc", "acceleration", "accel", "a", "加速度"),
+        *("aceleración", "aceleracion", "accélération", "accelerazione", "beschleunigung", "ivme"),
+    ),
     TIME: (
         "time",
         "t",
@@ -28,6 +31,7 @@ _CODE_NAMES = {
         "経過時間",
         "日時",
         "秒",
+        *("zeit", "uhrzeit", "tiempo", "tempo", "temps", "zaman", "时间", "时刻"),
     ),
 }
 _CODE_BY_NAME = {spelling: code for code, spellings in _CODE_NAMES.items() for spelling in spellings}
@@ -50,7 +54,19 @@ _UNITS = {
     "millig": "mg",
     "milli-g": "mg",
 }
-_TIME_UNITS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "秒": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0}
+_TIME_UNITS = {
+    "s": 1.0,
+    "sec": 1.0,
+    "secs": 1.0,
+    "second": 1.0,
+    "seconds": 1.0,
+    "秒": 1.0,
+    "seg": 1.0,
+    "sn": 1.0,
+    "ms": 1e-3,
+    "msec": 1e-3,
+    "min": 60.0,
+}
 _ZONES = {"jst": 32400, "日本時間": 32400, "日本標準時": 32400, "utc": 0, "gmt": 0}
 _CLOCK = re.compile(r"(?:y+[-/]m+[-/]d+[t ]*)?h+:m+(?::s+(?:\.[sf]+)?)?", re.IGNORECASE)
 _OTHER_UNITS = {

@@ -75,6 +75,10 @@ _ABSOLUTE_VALUE = re.compile(r"(?<!\S)\|[^|\s]+\|(?!\S)")
 
 _WIDTH_TOLERANT = {",", ";", "\t", "|"}
 
+_COMMA_NUMBER = r"[-+]?\d*(?:,\d+)?(?:[eE][-+]?\d+)?"
+_COMMA_NUMBERS = re.compile(rf"\s*{_COMMA_NUMBER}(?:\s+{_COMMA_NUMBER})*\s*")
+"""Numbers with decimal commas between blanks."""
+
 
 @dataclass(frozen=True)
 class TableLayout:
@@ -177,20 +181,25 @@ def _refine_layout(lines: Sequence[str], layout: TableLayout) -> TableLayout:
     names = list(layout.names)
     while len(names) > 1 and not names[-1].strip() and any(names):
         names.pop()
-    sample = next((line for line in lines[layout.body :] if is_data_line(line)), "")
+    samples = [line for line in lines[layout.body : layout.body + INSPECTED_LINES] if is_data_line(line)]
+    sample = samples[0] if samples else ""
     separator = layout.separator
     # the header may use another separator than the numbers
     if sample and separator is not None and separator not in sample and len(names) > 1:
         separator = find_separator(sample)
-    return TableLayout(
-        tuple(names), layout.body, separator, decimal_comma=separator not in (",", None) and "," in sample and "." not in sample
-    )
+    text = "".join(samples)
+    decimal_comma = separator != "," and "," in text and "." not in text
+    if decimal_comma and separator is None:
+        decimal_comma = all(_COMMA_NUMBERS.fullmatch(line) and len(line.split()) == len(names) for line in samples)
+    return TableLayout(tuple(names), layout.body, separator, decimal_comma)
 
 
 def find_separator(line: str) -> str | None:
     """Return the separator of a line: semicolon, tab, comma, vertical bar, else None for blanks."""
     # the comma after semicolons and tabs: beside them it may be a decimal comma
     mark = next((mark for mark in (";", "\t", ",", "|") if mark in line), None)
+    if mark == "," and len(line.split()) > 1 and _COMMA_NUMBERS.fullmatch(line):
+        return None
     return None if mark == "|" and _ABSOLUTE_VALUE.search(line) else mark
 
 

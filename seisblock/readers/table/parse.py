@@ -67,18 +67,36 @@ def parse_columns(
     """
     if not any(line.strip() for line in lines):
         raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=first_line - 1)
-    row_count = _count_rows(lines, separator)
-    table = None if row_count is None else _parse_with_numpy(lines, columns, separator, row_count)
+    row_count = _count_rows(lines, width, separator)
+    table = None if row_count is None else _parse_with_numpy(lines, columns, width, separator, row_count)
     # slow path: locates the first invalid cell
     if table is None or not all(np.isfinite(column).all() for column in table):
         table = list(np.ascontiguousarray(_parse_cell_by_cell(name, lines, first_line, columns, width, separator).T))
     if not table or not table[0].size:
         raise RecordFormatError("{name}: no samples in the lines after the header (line {line})", name=name, line=first_line - 1)
+    for label, values in zip(columns, table, strict=True):
+        _check_thousands(name, label, values)
     return table
 
 
-def _count_rows(lines: Sequence[str], separator: str | None) -> int | None:
-    """Return the number of nonblank lines; None if lines differ in their number of separators."""
+def _check_thousands(name: str, label: str, values: FloatArray) -> None:
+    """Raise if separators of thousands were read as decimal points: 998, 999, 1.001.
+
+    Whole numbers then reach 500 but not 1000, and all others lie between 1 and 100 and have three decimals or fewer.
+    """
+    magnitudes = np.abs(values)
+    if not 500.0 <= magnitudes.max() < 1000.0:
+        return
+    others = magnitudes[magnitudes != np.floor(magnitudes)]
+    if others.size and others.min() > 1.0 and others.max() < 100.0 and _has_decimals(others, 3):
+        message = (
+            "{name}: column {label} mixes whole numbers up to {whole:g} with {other:.3f}: separators of thousands? write numbers without"
+        )
+        raise RecordFormatError(message, name=name, label=label, whole=magnitudes.max(), other=others[0])
+
+
+def _count_rows(lines: Sequence[str], width: int, separator: str | None) -> int | None:
+    """Return the number of nonblank lines; None if lines differ in their number of separators or have more than `width` nonblank cells."""
     row_count = separators = nonempty_count = 0
     for piece in iter_chunks(lines):
         row_count += sum(1 for line in piece if line.strip())
@@ -86,11 +104,18 @@ def _count_rows(lines: Sequence[str], separator: str | None) -> int | None:
             separators += "\n".join(piece).count(separator)
             nonempty_count += sum(1 for line in piece if line)
     # blank-separated tables are checked by the number of parsed columns instead
-    is_regular = separator is None or separators == lines[0].count(separator) * nonempty_count
+    if separator is None:
+        return row_count
+    excess = lines[0].count(separator) + 1 - width
+    is_regular = separators == lines[0].count(separator) * nonempty_count
+    if is_regular and excess > 0:
+        is_regular = not any(cell.strip() for line in lines for cell in line.rsplit(separator, excess)[1:])
     return row_count if is_regular else None
 
 
-def _parse_with_numpy(lines: Sequence[str], columns: Mapping[str, int], separator: str | None, row_count: int) -> list[FloatArray] | None:
+def _parse_with_numpy(
+    lines: Sequence[str], columns: Mapping[str, int], width: int, separator: str | None, row_count: int
+) -> list[FloatArray] | None:
     """Return the columns parsed by numpy, or None on failure."""
     indices = list(columns.values())
     arrays = [np.empty(row_count) for _ in indices]
@@ -111,7 +136,7 @@ def _parse_with_numpy(lines: Sequence[str], columns: Mapping[str, int], separato
                 begin += len(rows)
         except (ValueError, IndexError):
             return None
-    return arrays if begin == row_count and len(widths) < 2 else None
+    return arrays if begin == row_count and widths <= {width} else None
 
 
 def _parse_cell_by_cell(
@@ -127,7 +152,12 @@ def _parse_cell_by_cell(
             continue
         cells = line.split(separator)
         if any(cell.strip() for cell in cells[width:]):
-            raise line_error("expected {width} cells, found {count}", name, first_line + offset, width=width, count=len(cells))
+            message = "expected {width} cells, found {count}"
+            if separator == ",":
+                message = (
+                    "expected {width} cells, found {count} (commas in the numbers? write decimal points and no separators of thousands)"
+                )
+            raise line_error(message, name, first_line + offset, width=width, count=len(cells))
         rows.append([_parse_cell(name, first_line + offset, label, cells, index) for label, index in columns.items()])
     return np.array(rows, dtype=np.float64)
 
