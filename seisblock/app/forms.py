@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from seisblock.bodies.friction import SURFACES, surface
+from seisblock.bodies.friction import SURFACES, pair_name, surface
 from seisblock.bodies.kinds import KINDS
 from seisblock.bodies.scan.mesh import SUFFIXES
 from seisblock.core.errors import ParameterError
@@ -133,7 +133,7 @@ class FormField:
 
 
 def solver_fields() -> list[FormField]:
-    """Return the fields of the options of ``respond``, as their dataclass declares them."""
+    """Return the fields of the options of ``respond``, as their dataclass declares them, in the language of the locale."""
     return [
         _form_field(name, spec, field.default) for name, spec, field in option_fields(RespondOptions) if name not in COVERED and spec.flag
     ]
@@ -141,7 +141,7 @@ def solver_fields() -> list[FormField]:
 
 def _form_field(name: str, spec: OptionField, default: Any) -> FormField:
     default_text = "" if default is MISSING or default is None else f"{default:g}" if isinstance(default, float) else str(default)
-    return FormField(name, plain_help(spec), "" if spec.unit == "1" else spec.unit, spec.flag, "/" in spec.flag, default_text)
+    return FormField(name, plain_help(gettext(spec.help)), "" if spec.unit == "1" else spec.unit, spec.flag, "/" in spec.flag, default_text)
 
 
 def solver_arguments(form: Mapping[str, str]) -> list[str]:
@@ -213,7 +213,7 @@ def body_arguments(form: Mapping[str, str], files: tuple[str, ...] = ()) -> list
     Raises
     ------
     ParameterError
-        If a file was chosen and none uploaded.
+        If a file was chosen and none uploaded, or an object by its sizes lacks a size or friction.
     """
     choice, width, height = (form.get(key, "").strip() for key in ("object", "width", "height"))
     mu, surface = form.get("mu", "").strip(), form.get("surface", "").strip()
@@ -227,9 +227,12 @@ def body_arguments(form: Mapping[str, str], files: tuple[str, ...] = ()) -> list
     body = find_body(choice)
     if body is not None and (width, height) == size_texts(body):
         return ["--block", body.name, *(friction if surface or mu != number_text(body.mu) else [])]
+    if not (width and height):
+        raise ParameterError("size of the object required: fill in its width and height, or choose a bundled object")
+    if not friction:
+        raise ParameterError("friction required: fill in the friction coefficient, or choose a pair of materials")
     kind = body.kind if body is not None else choice.removeprefix(OWN_SIZES) or "block"
-    sizes = [*(["--width", length_text(width)] if width else []), *(["--height", length_text(height)] if height else [])]
-    return [*sizes, *([] if kind == "block" else ["--kind", kind]), *friction]
+    return ["--width", length_text(width), "--height", length_text(height), *([] if kind == "block" else ["--kind", kind]), *friction]
 
 
 def size_texts(body: BodyOption) -> tuple[str, str]:
@@ -252,8 +255,8 @@ def floor_arguments(form: Mapping[str, str]) -> list[str]:
 
 
 def surface_labels() -> dict[str, str]:
-    """Return the pairs of surfaces with their friction coefficients."""
-    return {pair: f"{pair} (μ {surface.mu:g})" for pair, surface in SURFACES.items()}
+    """Return the pairs of surfaces with their friction coefficients, in the language of the locale."""
+    return {pair: f"{pair_name(pair)} (μ {surface.mu:g})" for pair, surface in SURFACES.items()}
 
 
 def scenario_object(arguments: Sequence[str], folder: Path) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seisblock.core.errors import ParameterError
-from seisblock.core.i18n import N_
+from seisblock.core.i18n import N_, gettext
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,14 @@ SURFACES = {
     "teflon/steel": Surface(0.04, 0.04, "[Urone2022]_ table 5.1"),
 }
 """Friction by pair, in either order; measured values scatter by a third, which probabilities include."""
+
+MATERIALS = (N_("granite"), N_("wood"), N_("stone"), N_("rubber"), N_("concrete"), N_("metal"), N_("steel"), N_("teflon"))
+"""Materials of the pairs, for translation."""
+
+
+def pair_name(pair: str) -> str:
+    """Return a pair of surfaces in the language of the locale."""
+    return "/".join(map(gettext, pair.split("/")))
 
 
 def surface(pair: str) -> Surface:

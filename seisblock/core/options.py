@@ -139,9 +139,9 @@ def document_key(name: str, spec: OptionField) -> str:
     return name if name.endswith(suffix) else name + suffix
 
 
-def plain_help(spec: OptionField) -> str:
-    """Return the help text without its default."""
-    return re.sub(r"\s*\[(default|required)[^\]]*\]$", "", spec.help)
+def plain_help(text: str) -> str:
+    """Return a help text, or its translation, without its default."""
+    return re.sub(r"\s*(\[(default|required)[^\]]*\]|［(既定|必須)[^］]*］)$", "", text)
 
 
 Kind = TypeVar("Kind")
@@ -153,7 +153,7 @@ def documented(kind: type[Kind]) -> type[Kind]:
     for name, spec, field in option_fields(kind):
         unit = f", {spec.unit}" if spec.unit else ""
         default = "" if field.default is MISSING or field.default is None else f" Default: {field.default!r}."
-        lines += [f"{name} : {field.type}{unit}", f"    {plain_help(spec)}{default}"]
+        lines += [f"{name} : {field.type}{unit}", f"    {plain_help(spec.help)}{default}"]
     kind.__doc__ = inspect.cleandoc(kind.__doc__ or "") + "\n".join(lines) + "\n"
     return kind
 

@@ -1,6 +1,7 @@
 """Forms of the local page: arguments of commands from the values of fields."""
 
 import json
+import re
 
 import pytest
 from click.testing import CliRunner
@@ -10,6 +11,7 @@ from seisblock.app.views import python_lines
 from seisblock.bodies.table import read_bodies
 from seisblock.cli import main
 from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import use_locale
 from seisblock.models.respond.options import RespondOptions
 from seisblock.studies.scenario.assess import UNKNOWN_FRICTION, scenario_bodies
 
@@ -20,7 +22,26 @@ def test_sizes_without_unit_are_centimetres_and_a_bare_block_names_no_kind():
 
 
 def test_sizes_of_a_kind_name_it():
-    assert forms.body_arguments({"object": "sizes:statue", "width": "4", "height": "9"})[-2:] == ["--kind", "statue"]
+    form = {"object": "sizes:statue", "width": "4", "height": "9", "mu": "0.3"}
+    assert forms.body_arguments(form)[4:6] == ["--kind", "statue"]
+
+
+@pytest.mark.parametrize("missing", ["width", "height", "mu"])
+def test_missing_size_or_friction_is_an_error_in_terms_of_the_form(missing):
+    """The error of the command named options, which a form does not have."""
+    form = {"object": "sizes:block", "width": "45", "height": "180", "mu": "0.3", missing: " "}
+    with pytest.raises(ParameterError, match="required: fill in") as error:
+        forms.body_arguments(form)
+    assert "--" not in str(error.value)
+    assert forms.body_arguments({**form, "width": "45", "height": "180", "mu": "", "surface": "wood/wood"})[-2:] == ["--surface", "wood/wood"]
+
+
+def test_fields_and_surfaces_are_in_the_language_of_the_page_and_name_no_option():
+    """Fields whose help states a default were in English, as were all materials."""
+    with use_locale("ja"):
+        labels = [field.label for field in forms.solver_fields()] + list(forms.surface_labels().values())
+    for label in labels:
+        assert re.search(r"[ぁ-んァ-ヶ一-龠]", label) and "--" not in label and "既定" not in label, label
 
 
 def test_bundled_body_with_its_own_values_is_named_so_that_its_ranges_apply():

@@ -21,7 +21,7 @@ class RespondOptions(SolverOptions):
     mu_kinetic: float | None = field(
         default=None,
         metadata=option(
-            N_("Kinetic friction coefficient, at most --mu. [default: as --mu]"),
+            N_("Kinetic friction coefficient. [default: as --mu]"),
             "--mu-kinetic",
             unit="1",
             interval="[0, inf)",

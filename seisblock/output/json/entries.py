@@ -91,7 +91,7 @@ def parameters_type(name: str, *kinds: type, extra: Mapping[str, Any] | None = N
         for field, spec, _ in option_fields(kind):
             if field not in exclude:
                 shape = spec.document or hints[field]
-                keys[document_key(field, spec)] = Annotated[shape, Meta(description=plain_help(spec))]
+                keys[document_key(field, spec)] = Annotated[shape, Meta(description=plain_help(spec.help))]
     result_type: Any = msgspec.defstruct(
         name, list((keys | dict(extra or {})).items()), frozen=True, kw_only=True, namespace={"__doc__": "Parameters of the command."}
     )

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from seisblock.bodies.body_name import body_name
+from seisblock.bodies.friction import pair_name
 from seisblock.core.i18n import N_, format_percent, format_share, gettext, join_clauses, join_list
 from seisblock.output.text.tables import DASH, format_number, styled_line, table
 from seisblock.report.text.assessment import name_pile
@@ -13,9 +14,6 @@ from seisblock.studies.scenario.secure import BASE_MASS, FRICTION, HEIGHT, INSET
 
 MAX_PAIRS = 3
 """Largest number of pairs of surfaces in a note."""
-
-MATERIALS = (N_("granite"), N_("wood"), N_("stone"), N_("rubber"), N_("concrete"), N_("metal"), N_("steel"), N_("teflon"))
-"""Materials of the pairs of surfaces, for translation."""
 
 LABELS = {
     WIDTH: N_("minimum base width"),
@@ -70,7 +68,7 @@ def measure_note(measure: Measure) -> str:
     if measure.displacement_m is not None and measure.displacement_m >= 0.01:
         notes.append(gettext("shifts by up to {shift:.0f} cm", shift=100.0 * measure.displacement_m))
     if measure.materials:
-        notes.append(join_list("/".join(map(gettext, pair.split("/"))) for pair in measure.materials[:MAX_PAIRS]))
+        notes.append(join_list(map(pair_name, measure.materials[:MAX_PAIRS])))
     return join_clauses(notes)
 
 
