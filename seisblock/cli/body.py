@@ -19,7 +19,7 @@ from seisblock.cli.options import check_callback, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import LENGTH, OutputFile
+from seisblock.cli.types import ANGLE, LENGTH, OutputFile
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core import checks
 from seisblock.core.errors import OutputError
@@ -92,7 +92,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
 )
 @option(
     "--facing",
-    type=float,
+    type=ANGLE,
     default=90.0,
     show_default=True,
     callback=_finite,
@@ -101,7 +101,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     help="Azimuth of the body's +x, degrees clockwise from north.",
 )
 @option("--name", "body_name", section="Body", metavar="TEXT", help="Name of the body. [default: file name]")
-@option("--step", type=float, default=10.0, show_default=True, callback=_positive, help="Azimuth step, degrees.")
+@option("--step", type=ANGLE, default=10.0, show_default=True, callback=_positive, help="Azimuth step, degrees.")
 @gravity_option
 @option(
     "--out",

@@ -14,7 +14,7 @@ from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, argument, option
 from seisblock.cli.options import Source, output_options, preparation_options
 from seisblock.cli.output import OutputOptions
-from seisblock.cli.types import Count
+from seisblock.cli.types import ANGLE, Count
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, gettext
@@ -80,7 +80,7 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
 @block_options
 @option(
     "--azimuth",
-    type=float,
+    type=ANGLE,
     metavar="DEG",
     section="Body",
     help="Azimuth of the shaking for a scanned --block, degrees clockwise from north.",

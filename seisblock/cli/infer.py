@@ -20,7 +20,7 @@ from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, displaced_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import LENGTH, MU, PEAK_UNITS, Count, Quantities
+from seisblock.cli.types import ANGLE, LENGTH, MU, PEAK_UNITS, Count, Quantities
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_RUNS
@@ -60,7 +60,7 @@ TWIST_OPTIONS = (
 @option("--rate", metavar="K/N", section="Body", help="Count: K of N stones overturned; proportions of the stones as in --cemetery.")
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="Displacement of an object that slid, m or with a unit; needs --mu.")
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="Displacement of a two-layer block that jumped, m or with a unit.")
-@option("--twist", type=float, metavar="DEG", section="Body", help="Residual rotation of an object about the vertical, degrees.")
+@option("--twist", type=ANGLE, metavar="DEG", section="Body", help="Residual rotation of an object about the vertical, degrees.")
 @option(
     "--displacement", type=LENGTH, metavar="M", section="Body", help="--twist: residual displacement of the same object, m or with a unit."
 )

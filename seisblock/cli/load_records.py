@@ -15,6 +15,9 @@ from seisblock.output.text.record_info import format_step
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.process import require_horizontals
 
+MAX_HISTORIES = 5
+"""Most records whose processing is printed."""
+
 
 def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: bool = False, use_recording: bool = False) -> list[Record]:
     """Read the records of a command and apply the record options.
@@ -44,6 +47,7 @@ def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: b
     with progress("reading {names}", names=[Path(name).name for name in names]):
         records = _read_records(names, source)
         results = [_prepare(record, source, vertical_counts=vertical_counts, keep_whole=keep_whole) for record in records]
+    _report_history(results)
     _report_checks(results)
     report_qc(results, strict=source.strict)
     set_task("computing")
@@ -110,10 +114,17 @@ def report_qc(records: list[Record], *, strict: bool) -> None:
 
 def _prepare(record: Record, source: Source, *, vertical_counts: bool, keep_whole: bool) -> Record:
     peaks = () if source.target_pga is None else selected_components(record, source, vertical_counts=vertical_counts)
-    record = make_preparation(source, peaks, keep_whole=keep_whole).apply(record)
-    for line in record.history:
-        info("{record}: {did}", record=record.station or record.source, did=format_step(line))
-    return record
+    return make_preparation(source, peaks, keep_whole=keep_whole).apply(record)
+
+
+def _report_history(records: list[Record]) -> None:
+    """Print the processing of the first records, and the number of the others."""
+    processed = [record for record in records if record.history]
+    for record in processed[:MAX_HISTORIES]:
+        for line in record.history:
+            info("{record}: {did}", record=record.station or record.source, did=format_step(line))
+    if len(processed) > MAX_HISTORIES:
+        info("processing of {count} further records: in --json", count=len(processed) - MAX_HISTORIES)
 
 
 def make_preparation(source: Source, peaks: tuple[str, ...], *, keep_whole: bool = False) -> Preparation:

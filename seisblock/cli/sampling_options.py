@@ -8,7 +8,7 @@ import click
 
 from seisblock.cli.command import Decorator, add_options, option
 from seisblock.cli.option_checks import given_flags
-from seisblock.cli.types import LENGTH, Count
+from seisblock.cli.types import ANGLE, LENGTH, Count
 from seisblock.core import checks
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS
@@ -43,7 +43,13 @@ def version_options(*names: str, runs: int) -> Decorator:
         ),
         option("--moved", type=LENGTH, default=0.01, help="Displacement that counts as moved, m or with a unit. [default: 1cm]"),
         *(
-            option(f"--vary-{name}", type=float, default=_SPREAD_OPTIONS[name][0], show_default=True, help=_SPREAD_OPTIONS[name][1])
+            option(
+                f"--vary-{name}",
+                type=ANGLE if name == "azimuth" else float,
+                default=_SPREAD_OPTIONS[name][0],
+                show_default=True,
+                help=_SPREAD_OPTIONS[name][1],
+            )
             for name in names
         ),
         option("--seed", type=int, default=0, show_default=True, help="Seed of the samples."),

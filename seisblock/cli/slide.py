@@ -18,7 +18,7 @@ from seisblock.cli.option_checks import reject_with
 from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
-from seisblock.cli.types import FLOATS, LENGTH, MUS
+from seisblock.cli.types import ANGLES, FLOATS, LENGTH, MUS
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.i18n import gettext, lazy_gettext
 from seisblock.models.slide.options import SlideOptions
@@ -65,7 +65,7 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 @option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Ratio of kinetic to static friction, instead of --mu-kinetic.")
 @option(
     "--slope",
-    type=FLOATS,
+    type=ANGLES,
     default="0",
     metavar="DEG",
     section="Body",

@@ -331,6 +331,11 @@ PEAK_UNITS = {
 }
 """Types of PGA, PGV and frequency by the default unit in the help."""
 
+ANGLE = FloatWithUnit({"deg": 1.0, "°": 1.0, "度": 1.0}, 1.0)
+"""An angle: degrees, or a number with that unit."""
+
+ANGLES = Quantities(ANGLE)
+
 FLOATS = Floats()
 LENGTHS = Quantities(LENGTH)
 MU = ShareType()

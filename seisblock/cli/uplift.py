@@ -15,7 +15,7 @@ from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, harmonic_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import FLOATS, LENGTH, MASS
+from seisblock.cli.types import ANGLES, FLOATS, LENGTH, MASS
 from seisblock.cli.write_results import figure_of, write_results
 from seisblock.core.errors import ParameterError
 from seisblock.models.uplift.options import UpliftOptions
@@ -84,7 +84,7 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
 @option("--alpha", type=FLOATS, section="Body", help="With --harmonic: ratio H/b of height to depth, instead of sizes. [default: 1]")
 @option("--gamma", type=FLOATS, section="Body", help="With --harmonic: ratio a/b of width to depth. [default: 1]")
 @option("--harmonic", is_flag=True, help="Steady state under harmonic motion, without a record; lists of parameters are combined.")
-@option("--phi", type=FLOATS, help="With --harmonic: azimuth of the motion from x to y, degrees. [default: 0]")
+@option("--phi", type=ANGLES, help="With --harmonic: azimuth of the motion from x to y, degrees. [default: 0]")
 @option("--rho", type=FLOATS, help="With --harmonic: angle of the motion from the vertical, degrees. [default: 90]")
 @option(
     "--frequency-ratio",

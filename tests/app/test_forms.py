@@ -33,7 +33,10 @@ def test_missing_size_or_friction_is_an_error_in_terms_of_the_form(missing):
     with pytest.raises(ParameterError, match="required: fill in") as error:
         forms.body_arguments(form)
     assert "--" not in str(error.value)
-    assert forms.body_arguments({**form, "width": "45", "height": "180", "mu": "", "surface": "wood/wood"})[-2:] == ["--surface", "wood/wood"]
+    assert forms.body_arguments({**form, "width": "45", "height": "180", "mu": "", "surface": "wood/wood"})[-2:] == [
+        "--surface",
+        "wood/wood",
+    ]
 
 
 def test_fields_and_surfaces_are_in_the_language_of_the_page_and_name_no_option():

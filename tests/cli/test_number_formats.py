@@ -50,6 +50,22 @@ def test_peaks_accept_units(words):
     assert answer(*words)["results"] == answer(*bare)["results"]
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["slide", "sine:300gal@1.5Hz,1s", "--mu", "0.2", "--slope", "5deg"],
+        ["slide", "sine:300gal@1.5Hz,1s", "--mu", "0.2", "--slope", "0:１０°:5度"],
+        ["respond", "synthetic_jma.csv", "--window", "25:27", "--block", "gravestone", "--runs", "20", "--vary-azimuth", "5deg"],
+        ["infer", "elcentro_1940_ns", "--twist", "1deg", "--block", "gravestone", "--mu", "0.5", "--runs", "20", "--window", "1:3"],
+    ],
+)
+def test_angles_accept_their_unit(words):
+    """``--twist 5deg`` was refused."""
+    bare = [re.sub("deg|°|度", "", word) for word in words]
+    assert bare != words
+    assert answer(*words)["results"] == answer(*bare)["results"]
+
+
 def test_peaks_in_other_units_are_refused_or_doubted():
     """``--pga 0.4``, meant in g, was computed as 0.4 gal without a word."""
     words = ["criteria", "--block", "gravestone", "--pgv", "40"]

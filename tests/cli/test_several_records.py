@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
+from seisblock.cli.load_records import MAX_HISTORIES
 
 OF_EVERY_KIND = (
     ["slide", "--mu", "0.05"],
@@ -31,6 +32,18 @@ def two_records(tmp_path, monkeypatch):
         rows = (f"{i * 0.02:.2f},{gal * math.sin(2 * math.pi * 2.0 * i * 0.02):.6f}\n" for i in range(51))
         (tmp_path / name).write_text("time (s),NS (gal),UD (gal)\n" + "".join(row.rstrip() + ",0\n" for row in rows))
     return ["one.csv", "two.csv"]
+
+
+def test_processing_of_many_records_does_not_hide_the_answer(tmp_path, monkeypatch):
+    """300 stations printed 300 lines on the removed mean before the answer."""
+    monkeypatch.chdir(tmp_path)
+    for number in range(MAX_HISTORIES + 2):
+        (tmp_path / f"{number}.csv").write_text("time (s),NS (gal)\n" + "".join(f"{i * 0.02:.2f},{i % 7 + number}\n" for i in range(51)))
+    names = sorted(path.name for path in tmp_path.iterdir())
+    lines = CliRunner().invoke(main, ["slide", "--mu", "0.2", "--demean", *names]).stderr.splitlines()
+    assert sum("mean" in line for line in lines) == MAX_HISTORIES
+    assert "processing of 2 further records: in --json" in lines
+    assert "further" not in CliRunner().invoke(main, ["slide", "--mu", "0.2", "--demean", *names[:MAX_HISTORIES]]).stderr
 
 
 @pytest.mark.parametrize("words", OF_EVERY_KIND, ids=" ".join)

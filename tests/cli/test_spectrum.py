@@ -110,6 +110,12 @@ def test_sliding_spectrum_equals_solve_slide(run, tmp_path):
     assert (tmp_path / "s.png").stat().st_size > 5_000
 
 
+def test_map_of_few_frictions_separates_the_ends_of_its_axis(run):
+    """The first and the last friction coefficient ran into each other: 0.03330.367."""
+    text = run("--kind", "modes", "--mu", "0.0333,0.2,0.367", "--height-over-width", "4,1", "--component", "NS").stdout
+    assert "0.0333 0.367" in text
+
+
 def test_mode_map_equals_solve_respond(run, tmp_path):
     """Each cell equals the result of respond; the file holds every cell; figures over shapes and over sizes."""
     answer = run("--kind", "modes", "--mu", "0.3,0.9", "--height-over-width", "4,1", "--component", "NS", "--json", "--csv", "m.csv")

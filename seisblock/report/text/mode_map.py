@@ -53,7 +53,7 @@ def _map_table(motion: Motion, mode_map: ModeMap, wear_text: str, max_rows: int)
     rows, columns = thin_indices(mode_map.size_m.size, max_rows)[::-1], thin_indices(mode_map.mu.size, MAX_COLUMNS)
     cells = [[row_label(mode_map, i), "".join(LETTERS[MODES_BY_SEVERITY[mode_map.governing[i, j]]] for j in columns)] for i in rows]
     first, last = f"{mode_map.mu[0]:.3g}", f"{mode_map.mu[-1]:.3g}"
-    axis_text = f"{first}{last:>{max(columns.size - len(first), 1)}}" if columns.size > 1 else first
+    axis_text = f"{first} {last:>{max(columns.size - len(first) - 1, 1)}}" if columns.size > 1 else first
     yield table(_title(motion, mode_map) + gettext(wear_text), [f"{row_symbol(mode_map)} \\ μ", axis_text], cells)
 
 
