@@ -68,18 +68,13 @@ def _newton(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, v
         impulses[c, 3], impulses[c, 13] = 0.0, 0.0
     for iteration in range(MAX_NEWTON):
         v0, v1, v2, w0, w1, w2 = velocity[0], velocity[1], velocity[2], velocity[3], velocity[4], velocity[5]
-        for i in range(6):
-            for j in range(6):
-                system[i, j] = 0.0
-        for i in range(3):
-            system[i, i] = mass
-            system[i, 6] = momentum[i] - mass * velocity[i]
-            for j in range(3):
-                system[3 + i, 3 + j] = inertia[3 * i + j]
-            system[3 + i, 6] = momentum[3 + i] - (inertia[3 * i] * w0 + inertia[3 * i + 1] * w1 + inertia[3 * i + 2] * w2)
-        error, guessed = 0.0, False
         # residual with the impulses of the last iteration: rho times the round-off of a velocity would hide it otherwise
-        f0, f1, f2, f3, f4, f5 = system[0, 6], system[1, 6], system[2, 6], system[3, 6], system[4, 6], system[5, 6]
+        r0, r1, r2 = momentum[0] - mass * v0, momentum[1] - mass * v1, momentum[2] - mass * v2
+        r3 = momentum[3] - (inertia[0] * w0 + inertia[1] * w1 + inertia[2] * w2)
+        r4 = momentum[4] - (inertia[3] * w0 + inertia[4] * w1 + inertia[5] * w2)
+        r5 = momentum[5] - (inertia[6] * w0 + inertia[7] * w1 + inertia[8] * w2)
+        f0, f1, f2, f3, f4, f5 = r0, r1, r2, r3, r4, r5
+        error, guessed = 0.0, False
         for c in range(count):
             x, y, z, shift = contacts[c, 0], contacts[c, 1], contacts[c, 2], contacts[c, 3]
             u0, u1, u2 = v0 + w1 * z - w2 * y, v1 + w2 * x - w0 * z, v2 + w0 * y - w1 * x
@@ -115,43 +110,6 @@ def _newton(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, v
             error = max(error, abs(p0 - old0), abs(p1 - old1), abs(p2 - old2))
             f0, f1, f2 = f0 + old0, f1 + old1, f2 + old2
             f3, f4, f5 = f3 + (y * old2 - z * old1), f4 + (z * old0 - x * old2), f5 + (x * old1 - y * old0)
-            system[0, 6] += p0
-            system[1, 6] += p1
-            system[2, 6] += p2
-            system[3, 6] += y * p2 - z * p1
-            system[4, 6] += z * p0 - x * p2
-            system[5, 6] += x * p1 - y * p0
-            if status == 0.0 and presses == 0.0:
-                continue
-            # D = -dp/du of this contact, 3 x 3; its contribution to the system is J' D J with J = [1, -[x]]
-            d00, d01, d11, d02, d12 = rho, 0.0, rho, 0.0, 0.0
-            normal = rho * presses
-            if status == 2.0:
-                d00, d11 = tangential * (1.0 - cosine * cosine), tangential * (1.0 - sine * sine)
-                d01 = -tangential * cosine * sine
-                d02, d12 = normal * mu * cosine, normal * mu * sine
-            for j in range(6):
-                # column j of J
-                j0, j1, j2 = 0.0, 0.0, 0.0
-                if j == 0:
-                    j0 = 1.0
-                elif j == 1:
-                    j1 = 1.0
-                elif j == 2:
-                    j2 = 1.0
-                elif j == 3:
-                    j1, j2 = -z, y
-                elif j == 4:
-                    j0, j2 = z, -x
-                else:
-                    j0, j1 = -y, x
-                q0, q1, q2 = d00 * j0 + d01 * j1 + d02 * j2, d01 * j0 + d11 * j1 + d12 * j2, normal * j2
-                system[0, j] += q0
-                system[1, j] += q1
-                system[2, j] += q2
-                system[3, j] += y * q2 - z * q1
-                system[4, j] += z * q0 - x * q2
-                system[5, j] += x * q1 - y * q0
         error = max(error / rho, abs(f0) / mass, abs(f1) / mass, abs(f2) / mass)
         # contacts of one face can ask for velocities that differ by round-off: their impulses drift, the velocities stay
         accepted = tolerance if iteration < MAX_NEWTON - 1 else STAGNATION * tolerance
@@ -159,6 +117,50 @@ def _newton(count, mass, inertia, momentum, contacts, impulses, mu, tolerance, v
         settled = not guessed and (count > 0 or iteration > 0)
         if settled and max(error, abs(f3) / turning, abs(f4) / turning, abs(f5) / turning) <= accepted:
             return True
+        # linear system of the Newton step
+        for i in range(6):
+            for j in range(6):
+                system[i, j] = 0.0
+        for i in range(3):
+            system[i, i] = mass
+            for j in range(3):
+                system[3 + i, 3 + j] = inertia[3 * i + j]
+        for c in range(count):
+            x, y, z = contacts[c, 0], contacts[c, 1], contacts[c, 2]
+            p0, p1, p2 = impulses[c, 7], impulses[c, 8], impulses[c, 9]
+            r0, r1, r2 = r0 + p0, r1 + p1, r2 + p2
+            r3, r4, r5 = r3 + (y * p2 - z * p1), r4 + (z * p0 - x * p2), r5 + (x * p1 - y * p0)
+            status = impulses[c, 3]
+            normal = rho * impulses[c, 14]
+            if status == 0.0 and normal == 0.0:
+                continue
+            # D = -dp/du of this contact, 3 x 3; its contribution to the system is J' D J with J = [1, -[x]]
+            d00, d01, d11, d02, d12 = rho, 0.0, rho, 0.0, 0.0
+            if status == 2.0:
+                cosine, sine, tangential = impulses[c, 4], impulses[c, 5], impulses[c, 6]
+                d00, d11 = tangential * (1.0 - cosine * cosine), tangential * (1.0 - sine * sine)
+                d01 = -tangential * cosine * sine
+                d02, d12 = normal * mu * cosine, normal * mu * sine
+            for j in range(6):
+                # column j of D J
+                q0, q1, q2 = d00, d01, 0.0
+                if j == 1:
+                    q0, q1 = d01, d11
+                elif j == 2:
+                    q0, q1, q2 = d02, d12, normal
+                elif j == 3:
+                    q0, q1, q2 = d02 * y - d01 * z, d12 * y - d11 * z, normal * y
+                elif j == 4:
+                    q0, q1, q2 = d00 * z - d02 * x, d01 * z - d12 * x, -normal * x
+                elif j == 5:
+                    q0, q1 = d01 * x - d00 * y, d11 * x - d01 * y
+                system[0, j] += q0
+                system[1, j] += q1
+                system[2, j] += q2
+                system[3, j] += y * q2 - z * q1
+                system[4, j] += z * q0 - x * q2
+                system[5, j] += x * q1 - y * q0
+        system[0, 6], system[1, 6], system[2, 6], system[3, 6], system[4, 6], system[5, 6] = r0, r1, r2, r3, r4, r5
         # singular, or overflowed: the sweeps take over
         if not solve_6x6(system, change):
             return False
