@@ -455,6 +455,8 @@ def rigid3d_outcomes(
 ) -> list[Rigid3dOutcome | None]:
     """Return the outcome of each sample in three dimensions, None for one that diverged.
 
+    The run of a body that has overturned ends when nothing can return it to its base: verdict, time and azimuth of the fall are final.
+
     Parameters
     ----------
     body, motion, options
@@ -477,7 +479,8 @@ def rigid3d_outcomes(
         shaken = sample_motion(motion, variation, draws[row])
         sample_options = replace(options, mu=options.mu * float(factors[row]), restitution=float(bounces[row]))
         along, across, up = (gains if scales is None else scales[row] * gains).tolist()
-        scratch, _, status = run_rigid3d(solids[row], ground_acceleration(shaken, (along, across, up)), motion.dt, sample_options)
+        acceleration = ground_acceleration(shaken, (along, across, up))
+        scratch, _, status = run_rigid3d(solids[row], acceleration, motion.dt, sample_options, until_decided=True)
         return None if status == Status.NOT_FINITE else build_outcome(scratch, motion.start_s, motion.dt, motion.azimuth_deg)
 
     return list(map_threads(work, range(len(draws)), progress=progress, workers=workers))

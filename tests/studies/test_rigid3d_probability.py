@@ -83,6 +83,37 @@ def test_sample_rigid3d_repeats_the_run_where_nothing_varies():
     assert outcome.max_tilt_rad > 1e-3
 
 
+def toppling(length, later=()):
+    """Return a half sine of 12 m/s^2 and 0.4 s along x, and more of (start, s, amplitude, m/s^2, length, s)."""
+    time = np.arange(0.0, length, 0.01)
+    along = np.zeros_like(time)
+    for start, peak, duration in ((0.2, 12.0, 0.4), *later):
+        along += np.where((time > start) & (time < start + duration), peak * np.sin(np.pi * (time - start) / duration), 0.0)
+    return Motion(np.array([along, 0.0 * along, 0.0 * along]), 0.01, name="90")
+
+
+@pytest.mark.parametrize("start", [5.5, 11.0])
+def test_sample_rigid3d_follows_a_fallen_body_that_a_later_pulse_returns(start):
+    body, options = Block(0.3, 0.4, 0.3), Rigid3dOptions(mu=1.5)
+    assert sample("rigid3d", body, toppling(20.0), options, 1, FIXED).outcomes[0].overturned
+    motion = toppling(20.0, [(start, -28.0, 0.3)])
+    assert sample("rigid3d", body, motion, options, 1, FIXED).outcomes == (solve_rigid3d(body, motion, **options.keywords()).outcome,)
+    assert not solve_rigid3d(body, motion, **options.keywords()).outcome.overturned
+
+
+def test_sample_rigid3d_ends_runs_that_the_rest_of_the_motion_cannot_turn():
+    """A boulder rattles for two minutes under 0.01 m/s^2 after its fall; verdict, time and azimuth are those of the whole run."""
+    body, options = load_scan("boulder"), Rigid3dOptions(mu=0.6)
+    motion = toppling(120.0)
+    tremor = 0.01 * np.sin(2.0 * np.pi * 0.7 * motion.time)
+    motion = Motion(motion.acceleration + np.array([tremor, -0.5 * tremor, 0.0 * tremor]), 0.01, name="90")
+    whole, (ended,) = solve_rigid3d(body, motion, **options.keywords()).outcome, sample("rigid3d", body, motion, options, 1, FIXED).outcomes
+    assert whole.overturned
+    assert whole.end_s > 100.0
+    assert ended.end_s < 20.0
+    assert (ended.overturning_time_s, ended.fell_azimuth_deg) == (whole.overturning_time_s, whole.fell_azimuth_deg)
+
+
 def test_summarize_spatial_gives_twist_and_place_of_samples_that_stand():
     body, motion = Block(0.3, 0.9, 0.4), shaking(4.5)
     samples = sample("rigid3d", body, motion, Rigid3dOptions(mu=0.6), 40)

@@ -7,19 +7,23 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from seisblock.bodies.convex import ConvexBody
+from seisblock.bodies.convex import ConvexBody, hull_planes
 from seisblock.bodies.scan.polygon import interior_distance
 from seisblock.core import checks
 from seisblock.core.errors import BodyError, ParameterError
 from seisblock.core.typing import FloatArray
-from seisblock.models.rigid3d.buffers import Q, RigidHull, V, W, X
+from seisblock.models.rigid3d.buffers import BASE_HEIGHT, SIZE, Q, RigidHull, V, W, X
 from seisblock.models.rigid3d.options import Rigid3dOptions
+from seisblock.models.rigid3d.run import MAX_ANGLE
 
 GAP_SHARE, REST_SHARE = 1e-9, 1e-10
 """Gap below which a vertex touches the ground over the size of the body, and speed below which the body rests over sqrt(g size)."""
 
 BASE_SHARE = 2e-3
 """Height above the lowest vertex up to which a vertex belongs to the base, a share of the size."""
+
+BARRIER_SAMPLES = 200
+"""Points of each edge of the base at which the height of a return is evaluated."""
 
 MAX_INITIAL_RATE = 1e4
 """Largest initial spin plus speed over size, rad/s: a run takes a step per 0.01 rad."""
@@ -63,6 +67,28 @@ def rigid_body(body: ConvexBody, options: Rigid3dOptions) -> RigidHull:
     return RigidHull(
         np.ascontiguousarray(vertices.T), np.ascontiguousarray(body.inertia, dtype=np.float64).ravel(), is_base, base, constants
     )
+
+
+def return_barrier(body: ConvexBody, constants: RigidHull) -> tuple[float, float]:
+    """Return lower bounds of the height of the centre of gravity on the ground: of all, and where it lies above an edge of the base, m.
+
+    A body that has overturned passes the second one before it stands on its base again.
+    """
+    centre = np.array(body.centre)
+    planes = hull_planes(body.points, body.name)
+    lowest = -float((planes[:, :3] @ centre + planes[:, 3]).max())
+    if not len(constants.base):
+        return lowest, lowest
+    size, height = constants.constants[[SIZE, BASE_HEIGHT]].tolist()
+    polygon = body.support_polygon - centre[:2]
+    shares = np.linspace(0.0, 1.0, BARRIER_SAMPLES, endpoint=False)[:, None, None]
+    points = ((1.0 - shares) * polygon + shares * np.roll(polygon, -1, axis=0)).reshape(-1, 2)
+    # directions down to the ground, in the body's axes; the base alone gives a lower bound
+    down = np.column_stack([points, np.full(len(points), -height)])
+    heights = (down @ constants.vertices[:, constants.is_base]).max(axis=1) / np.linalg.norm(down, axis=1)
+    spacing = float(np.hypot(*(np.roll(polygon, -1, axis=0) - polygon).T).max()) / BARRIER_SAMPLES
+    # between samples, and in a step across the edge, the height changes by its largest slope, the size, at most
+    return lowest, float(heights.min()) - size * (spacing / height + 2.0 * MAX_ANGLE)
 
 
 def initial_state(body: RigidHull, initial: Mapping[str, Sequence[float]] | None, state: FloatArray) -> None:

@@ -422,8 +422,8 @@ def start_run(body, scratch):
     _track(0.0, False, count, body, scratch)
 
 
-@kernel(_t.int64(READ_ONLY_MATRIX, _t.float64, _t.int64, _t.int64, _t.boolean, BODY, SCRATCH, MATRIX))
-def run_rigid3d(motion, dt, last, budget, stop_at_fall, body, scratch, rows):
+@kernel(_t.int64(READ_ONLY_MATRIX, _t.float64, _t.int64, _t.int64, BODY, SCRATCH, MATRIX))
+def run_rigid3d(motion, dt, last, budget, body, scratch, rows):
     """Integrate a body through a motion and on until it rests; return a status.
 
     Parameters
@@ -435,8 +435,6 @@ def run_rigid3d(motion, dt, last, budget, stop_at_fall, body, scratch, rows):
         Index of the last interval, counted on beyond the record.
     budget : int
         Intervals after which the loop pauses.
-    stop_at_fall : bool
-        Stop once the body has overturned.
     body, scratch : named tuples
     rows : (n, 7) array
         Centre of gravity and quaternion at each sample; an array without rows stores nothing.
@@ -468,6 +466,4 @@ def run_rigid3d(motion, dt, last, budget, stop_at_fall, body, scratch, rows):
         if counters[AT_REST] == 0 and not _advance(motion, dt, s, start, body, scratch):
             return NOT_FINITE
         counters[SAMPLE] = s + 1
-        if stop_at_fall and not math.isnan(scratch.ledger[OVERTURNING_TIME]):
-            return STOPPED
     return PAUSED

@@ -21,19 +21,20 @@ from seisblock.core.results import Channel, Histories, Response, Status
 from seisblock.core.typing import FloatArray
 from seisblock.dynamics.cancellation import check_cancelled, count_samples, report_progress
 from seisblock.models.rigid3d import buffers
-from seisblock.models.rigid3d.buffers import Workspace, X, make_workspace
+from seisblock.models.rigid3d.buffers import RigidHull, Workspace, X, make_workspace
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome, build_outcome
-from seisblock.models.rigid3d.params import initial_state, rigid_body
+from seisblock.models.rigid3d.params import initial_state, return_barrier, rigid_body
 from seisblock.models.rigid3d.run import run_rigid3d, start_run
+from seisblock.models.rigid3d.step import mechanical_energy
 from seisblock.records._validation import validate_inputs, validate_motion, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
 
 Body = Block | ScannedBody | Scan | ConvexBody
 
-BUDGET = 2000
-"""Intervals of the record per call of the kernel, between which a run can be cancelled."""
+BUDGET = 500
+"""Intervals of the record per call of the kernel, between which a run can be cancelled or end."""
 
 
 @keywords_of(Rigid3dOptions)
@@ -139,9 +140,12 @@ def run(
     options: Rigid3dOptions,
     *,
     keep_rows: bool = False,
-    stop_at_fall: bool = False,
+    until_decided: bool = False,
 ) -> tuple[Workspace, FloatArray, int]:
-    """Run a body under ground accelerations, (3, n), m/s^2; return its state and ledger, rows at the samples, and the status."""
+    """Run a body under ground accelerations, (3, n), m/s^2; return its state and ledger, rows at the samples, and the status.
+
+    With `until_decided`, a run ends when the rest of the motion cannot return a body that has overturned to its base.
+    """
     constants = rigid_body(body, options)
     samples = acceleration.shape[1]
     scratch = make_workspace(constants.vertices.shape[1])
@@ -151,12 +155,36 @@ def run(
     scratch.ledger[[buffers.START_X, buffers.START_Y]] = scratch.state[X : X + 2]
     last = samples - 1 + math.ceil(options.settle_s / dt)
     start_run(constants, scratch)
+    remaining, barrier = _remaining_speed(acceleration, dt) if until_decided else None, None
     status = int(Status.PAUSED)
     while status == Status.PAUSED:
         check_cancelled()
-        status = run_rigid3d(acceleration, dt, last, BUDGET, stop_at_fall, constants, scratch, rows)
+        status = run_rigid3d(acceleration, dt, last, BUDGET, constants, scratch, rows)
+        if remaining is not None and math.isfinite(scratch.ledger[buffers.OVERTURNING_TIME]):
+            barrier = barrier or return_barrier(body, constants)
+            speed = remaining[min(int(scratch.counters[buffers.SAMPLE]), samples - 1)]
+            if _cannot_return(constants, scratch, *barrier, speed):
+                status = int(Status.STOPPED)
         report_progress(*count_samples(int(scratch.counters[buffers.SAMPLE]), samples - 1, last))
     return scratch, rows, status
+
+
+def _remaining_speed(acceleration: FloatArray, dt: float) -> FloatArray:
+    """Return the integral of the amount of an acceleration, (3, n), m/s^2, from each sample to the last, (n,), m/s."""
+    amount = np.sqrt((acceleration**2).sum(axis=0))
+    # the amount is convex between samples: the trapezoidal rule is an upper bound
+    return np.append(np.cumsum(0.5 * dt * (amount[1:] + amount[:-1])[::-1])[::-1], 0.0)
+
+
+def _cannot_return(constants: RigidHull, scratch: Workspace, lowest: float, barrier: float, speed: float) -> bool:
+    """Return whether the rest of a motion, with its integral of the amount of the acceleration, m/s, is too weak for a body to return.
+
+    The energy above the lowest position, E = m u^2/2, is no less than the kinetic one. Contacts only dissipate, so that
+    dE/dt <= -m a . v <= m |a| u, and u grows by no more than the integral of |a| (derived here).
+    """
+    gravity, mass = constants.constants[buffers.GRAVITY], constants.constants[buffers.MASS]
+    energy = mechanical_energy(scratch.state, constants) / mass - gravity * lowest
+    return math.sqrt(2.0 * max(energy, 0.0)) + speed < math.sqrt(2.0 * gravity * max(barrier - lowest, 0.0))
 
 
 def _histories(motion: Motion, rows: FloatArray) -> Histories:
