@@ -41,18 +41,15 @@ from seisblock.dynamics.hybrid import (
     store_limit,
     store_sample,
 )
-from seisblock.dynamics.model_api import OFF, SERIES
+from seisblock.dynamics.model_api import OFF
 from seisblock.dynamics.polynomial import NO_CROSSING, ROUND_OFF, bracketed_root, first_negative
 from seisblock.models.uplift.constants import (
     ALL_CORNERS,
     CHANGES,
-    CX,
-    CY,
     CZ,
     DEGREE,
     FOURTH,
     GLUED,
-    GRAVITY,
     HALF_ALPHA,
     HALF_GAMMA,
     JX,
@@ -61,8 +58,6 @@ from seisblock.models.uplift.constants import (
     KY,
     KZ,
     LEVER,
-    PER_JX,
-    PER_JY,
     PER_ROOT_JX,
     PROPAGATORS,
     SETTLEMENT,
@@ -83,6 +78,7 @@ from seisblock.models.uplift.constants import (
     Z,
 )
 from seisblock.models.uplift.propagator import SIZE
+from seisblock.models.uplift.series import contact_sums, evaluate, levers, restoring, z_datum
 
 _t = types()
 
@@ -94,83 +90,20 @@ BEYOND = 1 << (4 + TRACKED)
 """Bit beside those of :func:`_undecided`."""
 
 
-@kernel(_t.float64(VECTOR, _t.int64, _t.int64, _t.float64, _t.float64), inline=True)
-def _force(p, closed, i, u, w):
-    """Return the force of corner `i` over the mass: an open corner keeps its horizontal spring only."""
-    return -(p[KZ] * u + p[CZ] * w) if (closed >> i) & 1 else 0.0
-
-
-@kernel(_t.UniTuple(_t.float64, 2)(VECTOR, _t.int64), inline=True)
-def _levers(p, i):
-    """Return the distances of corner `i` from the axes, over the depth: what its height loses by b theta_y and gains by b theta_x."""
-    return p[HALF_GAMMA] if i < 2 else -p[HALF_GAMMA], 0.5 if i % 2 == 0 else -0.5
-
-
-@kernel(_t.UniTuple(_t.float64, 5)(VECTOR, _t.int64, *(10 * (_t.float64,))), inline=True)
-def restoring(p, closed, z, b, a, x, y, z_rate, b_rate, a_rate, x_rate, y_rate):
-    """Return -M^-1 (K q + C q'), the accelerations from springs and dashpots of a contact state."""
-    half_alpha, half_gamma = p[HALF_ALPHA], p[HALF_GAMMA]
-    # the springs attach at the base, half a height below the centre of gravity: [Okumura1987]_ eq. (1), its second line corrected
-    # to y + (H/2) theta_x
-    push_x = -p[KX] * (x - half_alpha * b) - p[CX] * (x_rate - half_alpha * b_rate)
-    push_y = -p[KY] * (y + half_alpha * a) - p[CY] * (y_rate + half_alpha * a_rate)
-    forces = (
-        _force(p, closed, 0, z - half_gamma * b + 0.5 * a, z_rate - half_gamma * b_rate + 0.5 * a_rate),
-        _force(p, closed, 1, z - half_gamma * b - 0.5 * a, z_rate - half_gamma * b_rate - 0.5 * a_rate),
-        _force(p, closed, 2, z + half_gamma * b + 0.5 * a, z_rate + half_gamma * b_rate + 0.5 * a_rate),
-        _force(p, closed, 3, z + half_gamma * b - 0.5 * a, z_rate + half_gamma * b_rate - 0.5 * a_rate),
-    )
-    # sums of differences, which are exactly zero for equal corner motions
-    moment_x = 0.5 * ((forces[0] - forces[1]) + (forces[2] - forces[3])) + half_alpha * push_y
-    moment_y = -half_gamma * ((forces[0] - forces[2]) + (forces[1] - forces[3])) - half_alpha * push_x
-    return (forces[0] + forces[1]) + (forces[2] + forces[3]), moment_y * p[PER_JY], moment_x * p[PER_JX], push_x, push_y
-
-
-@kernel(_t.UniTuple(_t.float64, 2)(VECTOR, _t.int64), inline=True)
-def _datum(p, closed):
-    """Return the height above static equilibrium from which the coordinate z counts, and gravity as a load on it.
-
-    With all corners in contact it counts from static equilibrium, where rest is exactly zero.
-    """
-    return (0.0, 0.0) if closed == ALL_CORNERS else (p[SETTLEMENT], p[GRAVITY])
-
-
-@kernel(SERIES)
-def taylor(mode, y, f, p, order, c, g):
-    """Write the power series of the five coordinates to the rows of these states; return the degree."""
-    closed = mode & ALL_CORNERS
-    datum, weight = _datum(p, closed)
-    z, b, a, x, y_k = y[Z] - datum, y[TURN_Y], y[TURN_X], y[X], y[Y]
-    z_rate, b_rate, a_rate, x_rate, y_rate = y[VZ], y[VB], y[VA], y[VX], y[VY]
-    load_z, load_x, load_y = f[2, 0] + weight, f[0, 0], f[1, 0]
-    slope_z, slope_x, slope_y = f[2, 1], f[0, 1], f[1, 1]
-    for k in range(order + 1):
-        c[TURN_X, k], c[TURN_Y, k], c[X, k], c[Y, k], c[Z, k] = a, b, x, y_k, z
-        z_next, b_next, a_next, x_next, y_next = restoring(p, closed, z, b, a, x, y_k, z_rate, b_rate, a_rate, x_rate, y_rate)
-        step = 1.0 / (k + 1)
-        z, b, a, x, y_k = z_rate * step, b_rate * step, a_rate * step, x_rate * step, y_rate * step
-        z_rate, x_rate, y_rate = (z_next - load_z) * step, (x_next - load_x) * step, (y_next - load_y) * step
-        b_rate, a_rate = b_next * step, a_next * step
-        # the linear ground motion enters at orders 0 and 1
-        load_z, load_x, load_y = slope_z, slope_x, slope_y
-        slope_z = slope_x = slope_y = 0.0
-    c[Z, 0] += datum
-    return order
-
-
 @kernel(_t.float64(VECTOR, _t.int64, VECTOR, MATRIX), inline=True)
 def _energy_norm(p, closed, y, f):
     """Return e of the homogeneous equation: the bound of the third derivatives over a step."""
-    datum, weight = _datum(p, closed)
+    datum, weight = z_datum(p, closed)
+    sums = contact_sums(p, closed)
     b_rate, a_rate, x_rate, y_rate, z_rate = y[VB], y[VA], y[VX], y[VY], y[VZ]
-    z2, b2, a2, x2, y2 = restoring(p, closed, y[Z] - datum, y[TURN_Y], y[TURN_X], y[X], y[Y], z_rate, b_rate, a_rate, x_rate, y_rate)
+    z2, b2, a2, x2, y2 = restoring(p, sums, y[Z] - datum, y[TURN_Y], y[TURN_X], y[X], y[Y], z_rate, b_rate, a_rate, x_rate, y_rate)
     z2, x2, y2 = z2 - f[2, 0] - weight, x2 - f[0, 0], y2 - f[1, 0]
-    z3, b3, a3, x3, y3 = restoring(p, closed, z_rate, b_rate, a_rate, x_rate, y_rate, z2, b2, a2, x2, y2)
+    z3, b3, a3, x3, y3 = restoring(p, sums, z_rate, b_rate, a_rate, x_rate, y_rate, z2, b2, a2, x2, y2)
     z3, x3, y3 = z3 - f[2, 1], x3 - f[0, 1], y3 - f[1, 1]
     energy = z3 * z3 + p[JY] * b3 * b3 + p[JX] * a3 * a3 + x3 * x3 + y3 * y3
     energy += p[KX] * (x2 - p[HALF_ALPHA] * b2) ** 2 + p[KY] * (y2 + p[HALF_ALPHA] * a2) ** 2
     for i in range(4):
-        sx, sy = _levers(p, i)
+        sx, sy = levers(p, i)
         energy += p[KZ] * (z2 - sx * b2 + sy * a2) ** 2 if (closed >> i) & 1 else 0.0
     return np.sqrt(energy)
 
@@ -188,18 +121,6 @@ def _is_monotone(first, last, first_rate, last_rate, h, excess):
     """Return True if a quantity with these values and rates at its ends only rises or falls; `excess` is that of its values."""
     middle, excess = 3.0 * (last - first) / h - first_rate - last_rate, excess * DERIVATIVE_RATIO / h
     return min(min(first_rate, last_rate), middle) > excess or max(max(first_rate, last_rate), middle) < -excess
-
-
-@kernel(_t.void(MATRIX, _t.int64, _t.float64, VECTOR), inline=True)
-def _evaluate(c, degree, t, end):
-    """Write the values and rates of the power series of the coordinates at `t` to `end`."""
-    a, b, x, y, z = c[TURN_X, degree], c[TURN_Y, degree], c[X, degree], c[Y, degree], c[Z, degree]
-    a_rate = b_rate = x_rate = y_rate = z_rate = 0.0
-    for k in range(degree - 1, -1, -1):
-        a_rate, b_rate, x_rate, y_rate, z_rate = a_rate * t + a, b_rate * t + b, x_rate * t + x, y_rate * t + y, z_rate * t + z
-        a, b, x, y, z = a * t + c[TURN_X, k], b * t + c[TURN_Y, k], x * t + c[X, k], y * t + c[Y, k], z * t + c[Z, k]
-    end[Z], end[TURN_Y], end[TURN_X], end[X], end[Y] = z, b, a, x, y
-    end[VZ], end[VB], end[VA], end[VX], end[VY] = z_rate, b_rate, a_rate, x_rate, y_rate
 
 
 CORNERS = _t.UniTuple(_t.float64, 4)
@@ -229,7 +150,7 @@ def _set_corners(p, closed, y):
 @kernel(_t.float64(VECTOR, VECTOR, _t.int64), inline=True)
 def corner_rate(p, y, i):
     """Return the vertical rate of corner `i`."""
-    sx, sy = _levers(p, i)
+    sx, sy = levers(p, i)
     return y[VZ] - sx * y[VB] + sy * y[VA]
 
 
@@ -301,9 +222,10 @@ def _is_quiet(mode, p, y, end, h, energy, extrema, top, margins):
 @kernel(_t.float64(VECTOR, VECTOR, MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def _force_rate(p, y, f, closed, i, after):
     """Return the rate of the force of corner `i`, a time `after` the loads."""
-    datum, weight = _datum(p, closed)
-    z2, b2, a2, _, _ = restoring(p, closed, y[Z] - datum, y[TURN_Y], y[TURN_X], y[X], y[Y], y[VZ], y[VB], y[VA], y[VX], y[VY])
-    sx, sy = _levers(p, i)
+    datum, weight = z_datum(p, closed)
+    sums = contact_sums(p, closed)
+    z2, b2, a2, _, _ = restoring(p, sums, y[Z] - datum, y[TURN_Y], y[TURN_X], y[X], y[Y], y[VZ], y[VB], y[VA], y[VX], y[VY])
+    sx, sy = levers(p, i)
     second = z2 - (f[2, 0] + f[2, 1] * after + weight) - sx * b2 + sy * a2
     return -(p[KZ] * corner_rate(p, y, i) + p[CZ] * second)
 
@@ -355,7 +277,7 @@ def _undecided(mode, p, y, end, f, h, energy, extrema):
 @kernel(_t.void(VECTOR, VECTOR, MATRIX, _t.int64, _t.int64, _t.float64, VECTOR), inline=True)
 def _corner_series(p, y, c, degree, i, sign, g):
     """Write the power series of the displacement of corner `i`, times a sign, to `g`; a reset leaves corners at exactly zero."""
-    sx, sy = _levers(p, i)
+    sx, sy = levers(p, i)
     g[0] = sign * y[U + i]
     for k in range(1, degree + 1):
         g[k] = sign * (c[Z, k] - sx * c[TURN_Y, k] + sy * c[TURN_X, k])
@@ -464,7 +386,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 multiply_columns(p, PROPAGATORS + closed * SIZE, y, TURN_X, f, end)
             else:
                 series(mode, y, f, p, degree, c, g)
-                _evaluate(c, degree, h, end)
+                evaluate(c, degree, h, end)
             _set_corners(p, closed, end)
             if energy < 0.0 or not _is_quiet(mode, p, y, end, h, energy, extrema, top, scratch.d):
                 energy = _energy_norm(p, closed, y, f)
@@ -478,7 +400,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                     series(mode, y, f, p, degree, c, g)
                 guard, h = _first_crossing(bits, mode, p, y, end, scratch, degree, h, energy)
                 if guard >= 0 and h > 0.0:
-                    _evaluate(c, degree, h, end)
+                    evaluate(c, degree, h, end)
                     _set_corners(p, closed, end)
                     # what holds for the whole step holds for its beginning
                     bits = _undecided(mode, p, y, end, f, h, energy, extrema) if bits & BEYOND != 0 else 0

@@ -24,9 +24,10 @@ import numpy as np
 from seisblock._jit import kernel
 from seisblock.bodies.spring_block import CORNER_SIGNS, SpringBlock
 from seisblock.core.typing import FloatArray
+from seisblock.dynamics.hybrid import allocate_scratch
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.model_api import RESET
-from seisblock.models.uplift.advance import advance, corner_rate, taylor
+from seisblock.models.uplift.advance import advance, corner_rate
 from seisblock.models.uplift.constants import (
     ALL_CORNERS,
     CHANGES,
@@ -39,7 +40,8 @@ from seisblock.models.uplift.constants import (
     F,
     U,
 )
-from seisblock.models.uplift.propagator import MAX_DEGREE, propagators
+from seisblock.models.uplift.propagator import MAX_DEGREE, SIZE, fill_propagators, step_parameters
+from seisblock.models.uplift.series import taylor
 
 CROSSING_TOLERANCE = 1e-12
 """Distance of a corner from its spring over the static settlement below which corners open or close together."""
@@ -114,7 +116,9 @@ def parameters(bodies: Sequence[SpringBlock], gravity: float, dt: float) -> Floa
         stiffness = wx * wx, wy * wy, wz * wz / 4.0
         geometry = jx, jy, 1.0 / jx, 1.0 / jy, jx**-0.5, jy**-0.5, gravity, body.static_settlement(gravity), lever
         rows.append([0.5 * body.alpha, 0.5 * body.gamma, *stiffness, *damping, *geometry])
-    return np.hstack([np.array(rows), propagators(bodies, gravity, dt)])
+    p = np.hstack([np.array(rows), step_parameters(bodies, dt), np.empty((len(rows), (ALL_CORNERS + 1) * SIZE))])
+    fill_propagators(UPLIFT.pointers[1], p, allocate_scratch(UPLIFT.shape, N_STATES, 3), np.empty(N_STATES), np.empty(N_STATES))
+    return p
 
 
 def static_state(body: SpringBlock, gravity: float) -> FloatArray:

@@ -13,13 +13,18 @@ from seisblock.core.arrays import as_readonly
 from seisblock.core.i18n import N_
 from seisblock.core.typing import FloatArray
 
-UNCOUPLED_COORDINATES = {
-    (N_("first rocking in x-z"), N_("second rocking in x-z")): (0, 4),
-    (N_("first rocking in y-z"), N_("second rocking in y-z")): (1, 3),
-    (N_("vertical"),): (2,),
-    (N_("torsion"),): (5,),
-}
-"""Uncoupled groups of coordinates, by symmetry of the base about both axes."""
+NAMES = (
+    N_("first rocking in x-z"),
+    N_("second rocking in x-z"),
+    N_("first rocking in y-z"),
+    N_("second rocking in y-z"),
+    N_("vertical"),
+    N_("torsion"),
+)
+"""Modes in the order of their computation."""
+
+PAIRS = np.array([(0, 4), (1, 3)])
+"""Coordinates that are coupled, of the four rocking modes; by symmetry of the base about both axes the other two are not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,18 +83,19 @@ def natural_modes(body: SpringBlock) -> Modes:
     ('second rocking in y-z', 1.732050807569)
     """
     checks.instance(body, SpringBlock)
-    masses, stiffness = np.diag(mass_matrix(body)), stiffness_matrix(body)
     # M is diagonal: a symmetric problem in the coordinates M^1/2 q
-    scale = np.sqrt(masses)
-    scaled = stiffness / np.outer(scale, scale)
-    modes: list[tuple[float, str, FloatArray]] = []
-    for labels, members in UNCOUPLED_COORDINATES.items():
-        squares, vectors = np.linalg.eigh(scaled[np.ix_(members, members)])
-        for rank, (square, scaled_vector) in enumerate(zip(squares, vectors.T, strict=True)):
-            vector, shape = scaled_vector / scale[list(members)], np.zeros(6)
-            shape[list(members)] = vector * np.copysign(1.0, vector[np.argmax(np.abs(vector))])
-            modes.append((math.sqrt(square), labels[rank], shape))
-    modes.sort(key=lambda mode: mode[0])
-    names = tuple(name for _, name, _ in modes)
+    scale = np.sqrt(np.diag(mass_matrix(body)))
+    scaled = stiffness_matrix(body) / np.outer(scale, scale)
+    squares, vectors = np.linalg.eigh(scaled[PAIRS[:, :, None], PAIRS[:, None, :]])
+    omega = np.sqrt([*squares.ravel(), scaled[2, 2], scaled[5, 5]])
+    shapes = np.zeros((6, 6))
+    for pair, vector_pair in enumerate(vectors):
+        shapes[np.ix_(PAIRS[pair], (2 * pair, 2 * pair + 1))] = vector_pair
+    shapes[2, 4] = shapes[5, 5] = 1.0
+    shapes /= scale[:, None]
+    # the largest component is positive
+    shapes *= np.copysign(1.0, shapes[np.abs(shapes).argmax(axis=0), np.arange(6)])
+    order = np.argsort(omega, kind="stable")
+    names = tuple(NAMES[mode] for mode in order)
     first = min(index for index, name in enumerate(names) if name.startswith("first"))
-    return Modes(as_readonly([w for w, _, _ in modes]), as_readonly(np.array([shape for *_, shape in modes]).T), names, first)
+    return Modes(as_readonly(omega[order]), as_readonly(shapes[:, order]), names, first)

@@ -1,6 +1,6 @@
-"""Propagators of a block on corner springs: matrices of the exact solution over a step, one for each contact state.
+"""Propagators of a block on corner springs: matrices of the exact solution over a step, one for each contact state (derived here).
 
-With value and slope of a linear ground motion, a step is a product with part of the exponential of the augmented system (derived here).
+Columns are the solutions from a unit coordinate or rate, and under a unit load or slope of a linear ground motion.
 """
 
 from __future__ import annotations
@@ -10,68 +10,53 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from seisblock.bodies.spring_block import CORNER_SIGNS, SpringBlock
+from seisblock._jit import kernel, types
+from seisblock.bodies.spring_block import SpringBlock
 from seisblock.core.typing import FloatArray
-from seisblock.models.uplift.constants import ALL_CORNERS
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.dynamics.buffers import SCRATCH
+from seisblock.dynamics.model_api import SERIES
+from seisblock.models.uplift.constants import ALL_CORNERS, GRAVITY, N_STATES, PROPAGATORS, SETTLEMENT, STEP, TURN_X
+from seisblock.models.uplift.series import evaluate
+
+_t = types()
 
 MAX_PHASE = 1.0
 """Largest phase of the highest mode per step, rad: longer steps leave most samples undecided, and their power series converge slowly."""
 
-N_COORDINATES, N_COLUMNS = 5, 17
-"""Coordinates; columns of a propagator: a constant, coordinates, rates, load and slope along x, y and z."""
+N_ROWS, N_COLUMNS = 10, 17
+"""Five coordinates and their rates; a constant, these, load and slope along x, y and z."""
+
+HEIGHT, LOAD_UP = 4, 14
+"""Columns, after the first, of the height and of a vertical load; the row of the height."""
 
 MAX_DEGREE = 20
 """Largest degree of the power series of the coordinates."""
 
-SIZE = 2 * N_COORDINATES * N_COLUMNS
+SIZE = N_ROWS * N_COLUMNS
 
 
-def propagators(bodies: Sequence[SpringBlock], gravity: float, dt: float) -> FloatArray:
-    """Return the parameters from ``SUBSTEPS`` on, one row per body: steps per sample, bounds, propagators of 16 contact states."""
-    m = len(bodies)
-    frequency, two_zeta = np.array([body.omega for body in bodies]), 2.0 * np.array([body.damping for body in bodies])
-    geometry = np.array([(0.5 * body.alpha, 0.5 * body.gamma, body.inertia[1], body.inertia[0]) for body in bodies])
-    half_alpha, half_gamma, jy, jx = geometry.T
-    settlement = np.array([body.static_settlement(gravity) for body in bodies])
-    one, zero = np.ones(m), np.zeros(m)
-    mass = np.stack([jx, jy, one, one, one], axis=1)
-    corners = np.stack([np.stack([0.5 * sy * one, -sx * half_gamma, zero, zero, one], axis=1) for sx, sy in CORNER_SIGNS], axis=1)
-    base = np.stack([np.stack([zero, -half_alpha, one, zero, zero], axis=1), np.stack([half_alpha, zero, zero, one, zero], axis=1)], axis=1)
-    in_contact = np.arange(ALL_CORNERS + 1)[:, None] >> np.arange(4) & 1
-    vertical = np.einsum("si,mij,mik->msjk", in_contact, corners, corners)
-    sideways = np.einsum("mdj,mdk->mdjk", base, base)
-    k_side, k_up = frequency[:, :2] ** 2, frequency[:, 2, None, None, None] ** 2 / 4.0
-    stiffness = np.einsum("md,mdjk->mjk", k_side, sideways)[:, None] + k_up * vertical
-    damping = np.einsum("md,mdjk->mjk", two_zeta[:, None] * frequency[:, :2], sideways)[:, None]
-    damping = damping + (two_zeta * frequency[:, 2] / 4.0)[:, None, None, None] * vertical
+def step_parameters(bodies: Sequence[SpringBlock], dt: float) -> FloatArray:
+    """Return the parameters from ``SUBSTEPS`` to ``FOURTH``, one row per body: steps per sample, and bounds over a step."""
+    frequency = np.array([body.omega for body in bodies])
     # highest rates: those of full contact, which has the most springs and dashpots
-    scale = np.sqrt(mass)
-    scale = scale[:, :, None] * scale[:, None, :]
-    k_max, c_max = (np.linalg.eigvalsh(matrix[:, ALL_CORNERS] / scale)[:, -1] for matrix in (stiffness, damping))
+    k_max = _largest_eigenvalue(bodies, frequency**2)
+    c_max = _largest_eigenvalue(bodies, 2.0 * np.array([[body.damping] for body in bodies]) * frequency)
     substeps = np.maximum(np.ceil(np.maximum(np.sqrt(k_max), c_max) * dt / MAX_PHASE), 1.0)
-    step = dt / substeps
-    # augmented system in units of the step: q, q' h, load h^2, slope h^3, so that all entries are of order one
-    n, h = N_COORDINATES, step[:, None, None, None]
-    system = np.zeros((m, ALL_CORNERS + 1, 2 * n + 6, 2 * n + 6))
-    system[:, :, :n, n : 2 * n] = np.eye(n)
-    system[:, :, n : 2 * n, :n] = -h * h * stiffness / mass[:, None, :, None]
-    system[:, :, n : 2 * n, n : 2 * n] = -h * damping / mass[:, None, :, None]
-    for k in range(3):
-        load = 2 * n + 2 * k
-        system[:, :, n + 2 + k, load] = -1.0
-        system[:, :, load, load + 1] = 1.0
-    exponential = _exponential(system)[:, :, : 2 * n]
-    powers = np.array([*n * [0.0], *n * [1.0], *3 * [2.0, 3.0]])
-    units = step[:, None] ** powers
-    exponential *= units[:, None, None, :] / units[:, None, : 2 * n, None]
-    # gravity and the static settlement, which cancel with all corners in contact
-    at_natural_length = np.zeros((m, 2 * n))
-    at_natural_length[:, n - 1] = settlement
-    constant = at_natural_length[:, None] + gravity * exponential[..., 2 * n + 4] - settlement[:, None, None] * exponential[..., n - 1]
-    constant[:, ALL_CORNERS] = 0.0
-    columns = np.concatenate([constant[..., None], exponential], axis=-1)
     fourth = np.sqrt(k_max + c_max * c_max)
-    return np.column_stack([substeps, step, _degrees(fourth * step), fourth, np.swapaxes(columns, 2, 3).reshape(m, -1)])
+    return np.column_stack([substeps, dt / substeps, _degrees(fourth * dt / substeps), fourth])
+
+
+def _largest_eigenvalue(bodies: Sequence[SpringBlock], total: FloatArray) -> FloatArray:
+    """Return the largest eigenvalue, relative to the masses, of corner elements with given sums in x, y and z, (m, 3); without torsion."""
+    along, across, up = total.T
+    alpha, gamma, jx, jy = np.array([(body.alpha, body.gamma, *body.inertia[:2]) for body in bodies]).T
+    values = [up]
+    # a translation and the rotation in its plane
+    for side, width, inertia in ((along, gamma, jy), (across, 1.0, jx)):
+        rotation = 0.25 * (alpha * alpha * side + width * width * up) / inertia
+        values.append(0.5 * (side + rotation) + np.hypot(0.5 * (side - rotation), 0.5 * alpha * side / np.sqrt(inertia)))
+    return np.max(values, axis=0)
 
 
 def _degrees(phase: FloatArray) -> FloatArray:
@@ -82,20 +67,34 @@ def _degrees(phase: FloatArray) -> FloatArray:
     return degrees
 
 
-def _exponential(matrices: FloatArray) -> FloatArray:
-    """Return the exponentials of matrices, a group per body, by scaling and squaring of the power series.
-
-    Unlike scipy's, exact zeros remain zero. Squarings are counted for each body, so that its bits do not depend on the others.
-    """
-    norm = np.abs(matrices).sum(axis=-1).max(axis=(1, 2))
-    squarings = np.maximum(np.ceil(np.log2(norm / 0.25)), 0.0).astype(np.int64)
-    scaled = matrices / 2.0 ** squarings[:, None, None, None]
-    identity = np.eye(matrices.shape[-1])
-    # 0.25^13 / 13! is below round-off
-    result = identity + scaled / 12.0
-    for k in range(11, 0, -1):
-        result = identity + scaled @ result / k
-    for n in range(squarings.max()):
-        rows = squarings > n
-        result[rows] = result[rows] @ result[rows]
-    return result
+@kernel(_t.void(_t.FunctionType(SERIES), MATRIX, SCRATCH, VECTOR, VECTOR))
+def fill_propagators(series, parameters, scratch, y, end):
+    """Write the propagators of the 16 contact states to the rows of parameters; the other arrays are work space."""
+    c, g, f = scratch.c, scratch.g, scratch.f
+    for row in range(parameters.shape[0]):
+        p = parameters[row]
+        step, gravity, settlement = p[STEP], p[GRAVITY], p[SETTLEMENT]
+        # without weight the equations are homogeneous
+        p[GRAVITY] = p[SETTLEMENT] = 0.0
+        for closed in range(ALL_CORNERS + 1):
+            constant = PROPAGATORS + closed * SIZE
+            for k in range(N_COLUMNS - 1):
+                for i in range(N_STATES):
+                    y[i] = 0.0
+                for i in range(3):
+                    f[i, 0] = f[i, 1] = 0.0
+                if k < N_ROWS:
+                    y[TURN_X + k] = 1.0
+                else:
+                    f[(k - N_ROWS) // 2, (k - N_ROWS) % 2] = 1.0
+                series(closed, y, f, p, MAX_DEGREE, c, g)
+                evaluate(c, MAX_DEGREE, step, end)
+                for i in range(N_ROWS):
+                    p[constant + N_ROWS * (k + 1) + i] = end[TURN_X + i]
+            # gravity and the static settlement, which cancel with all corners in contact
+            for i in range(N_ROWS):
+                at, above = constant + i, settlement if i == HEIGHT else 0.0
+                p[at] = above + gravity * p[at + N_ROWS * (LOAD_UP + 1)] - settlement * p[at + N_ROWS * (HEIGHT + 1)]
+                if closed == ALL_CORNERS:
+                    p[at] = 0.0
+        p[GRAVITY], p[SETTLEMENT] = gravity, settlement
