@@ -1,5 +1,6 @@
 """Figures without a time axis show the values of their answer: bars, curves, maps and roses, in the unit of their axes."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -24,6 +25,7 @@ from seisblock.report.figures.azimuths import figure as azimuths_figure
 from seisblock.report.figures.criteria import figure as criteria_figure
 from seisblock.report.figures.fragility import figure as fragility_figure
 from seisblock.report.figures.scenario import figure as scenario_figure
+from seisblock.report.figures.spectrum import figure as spectrum_figure
 from seisblock.report.text.fragility import verdict
 from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.survey.overturning_rate import overturning_rate
@@ -125,6 +127,14 @@ def test_risk_figure_shows_hazard_and_fragilities():
     assert any(len(item) > 50 and np.allclose(item[:, 1], hazard.rate(item[:, 0] / 100.0)) for item in curves_of(above))
     for arguments, _ in result:
         assert sum(np.allclose(item[:, 1], arguments.curve.probability(item[:, 0] / 100.0)) for item in curves_of(middle)) == 1
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_rocking_spectrum_names_each_direction_above_its_panel_where_there_are_several(count):
+    """The only direction stood in the title and again above the panel."""
+    figure = spectrum_figure(spectra()[:count], "rocking", 9.81)
+    assert sum(bool(axis.get_title("left")) for axis in figure.axes) == (count if count > 1 else 0)
+    assert spectra()[0][0].name in figure.heading.get_text()
 
 
 @pytest.mark.slow
@@ -320,6 +330,8 @@ def test_slip_limit_uses_figure_unit(gal, message):
     fragility = replace(fragility, curves=(replace(fragility.curves[0], limit="slip=0.05m"), *fragility.curves[1:]))
     texts = [text.get_text() for text in fragility_figure(fragility, gal=gal).axes[0].get_legend().get_texts()]
     assert any(text.startswith(message) for text in texts)
+    # the median had no unit
+    assert all(re.search(r": [\d.]+ (gal|kine|m/s²?), β", text) for text in texts if "β" in text) and any("β" in text for text in texts)
     assert f"stone, {message}" in verdict(fragility, fragility.curves[0], gal=gal)
 
 

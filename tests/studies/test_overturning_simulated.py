@@ -15,7 +15,7 @@ from seisblock.models.rock.solve import solve_rock
 from seisblock.readers import read
 from seisblock.records import motion_of
 from seisblock.records.process import scale
-from seisblock.studies.survey.overturning_rate import overturning_rate
+from seisblock.studies.survey.overturning_rate import CURVE_PGA, overturning_rate
 from seisblock.studies.survey.simulation import simulated_curve, simulated_overturns, sine_motion, stone_block
 
 AOYAMA = read_cemetery("aoyama.csv")
@@ -73,3 +73,9 @@ def test_simulated_rate_rejects_unsupported_stones():
         stone_block(Stone(2.0), inset=EdgeWear(share=0.5))
     with pytest.raises(ParameterError, match="the frequency of the sine must be positive"):
         sine_motion(1.0, 0.0)
+
+
+def test_simulated_curve_has_the_steps_of_the_criterion():
+    """The simulated curve advanced in steps of 100 gal, beside curves of the criterion in steps of 50."""
+    curve = simulated_curve(GRID, [([sine_motion(1.0, 2.0)], 2.0)])
+    assert np.diff([point.pga_m_s2 for point in curve]) == pytest.approx(np.diff(CURVE_PGA).max())

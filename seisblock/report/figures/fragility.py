@@ -87,7 +87,8 @@ def _draw_curve(axis: Axes, study: FragilityStudy, index: int, look: tuple[str, 
         )
         axis.fill_between(x / size, lower, upper, color=colour, alpha=0.16, linewidth=0, label=text)
     x = np.geomspace(low, high, CURVE_POINTS)
-    text = gettext("{limit}: {median:.3g}, β {beta:.2f}", limit=name, median=curve.curve.median / size, beta=curve.curve.beta)
+    median = f"{curve.curve.median / size:.3g} {study.measure.display_unit(gal=gal)[1]}".rstrip()
+    text = gettext("{limit}: {median}, β {beta:.2f}", limit=name, median=median, beta=curve.curve.beta)
     axis.plot(x, curve.curve.probability(x * size), color=colour, linestyle=dashes, linewidth=1.4, label=text)
 
 

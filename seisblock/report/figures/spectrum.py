@@ -56,7 +56,8 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
         if x.min() < rest_limit < x.max():
             axis.axvline(rest_limit, color=style.THRESHOLD, linewidth=0.8, linestyle=DASHES)
             limits = True
-        axis.set_title(name, fontsize=9, loc="left", parse_math=False)
+        if len(spectra) > 1:
+            axis.set_title(name, fontsize=9, loc="left", parse_math=False)
         axis.grid(False)
         style.label_axes(axis, gettext("α (deg)"), "2R (m)" if axis is axes[0] else "")
         top = axis.secondary_xaxis("top", functions=(_height_over_width, _slenderness_degrees))

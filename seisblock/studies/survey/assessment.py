@@ -254,7 +254,7 @@ def overturning_curve(
 ) -> tuple[CurvePoint, ...]:
     """Return the overturning rate against PGA, at the frequency of a shaking first and at others ([Furukawa2009]_ figs. 16, 17).
 
-    Simulated curves scale the motion of the shaking, or sines of 20 s without one, to 100, 200, ... 1300 gal.
+    Simulated curves scale the motion of the shaking, or sines of 20 s without one, to 100, 150, ... 1300 gal.
     """
     if method.criterion == "simulate":
         recorded_motions = [([shaking.motion], shaking.frequency)] if shaking is not None and shaking.motion is not None else []

@@ -32,8 +32,8 @@ from seisblock.studies.survey.limits import require_undowelled
 from seisblock.studies.survey.overturning_rate import CurvePoint
 from seisblock.studies.survey.stones import either
 
-SIMULATED_PGA = tuple(float(i) for i in range(1, 14))
-"""Amplitudes of simulated curves, m/s^2 ([Furukawa2009]_ section 3(3)a)."""
+SIMULATED_PGA = tuple(0.5 * i for i in range(2, 27))
+"""Amplitudes of simulated curves, m/s^2: the range of [Furukawa2009]_ section 3(3)a in half its steps."""
 
 SINE_DURATION = 20.0
 """Length of the sines, s ([Furukawa2009]_ section 3(3)a)."""
