@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -550,3 +552,12 @@ def test_japanese_headings_are_not_taken_for_others(table, name, encoding):
     record = read(table(f"時間(秒),{name}(gal)\n0.00,1\n0.01,4\n0.02,7\n", encoding))
     expected = {"X軸": "X軸", "NS波": "NS波", "南北": "NS", "上下(UD)": "UD", "東西成分": "EW"}
     assert record.codes == (expected[name],)
+
+
+def test_long_runs_of_blanks_cost_no_time(table):
+    """XML with indented lines was searched for numbers with decimal commas in exponential time."""
+    text = "<?xml version='1.0'?>\n" + (" " * 200 + "<a href='b, c'>,</a>\n") * 50
+    begin = time.process_time()
+    with pytest.raises(RecordFormatError, match="unknown file format"):
+        read(table(text))
+    assert time.process_time() - begin < 10.0

@@ -75,9 +75,8 @@ _ABSOLUTE_VALUE = re.compile(r"(?<!\S)\|[^|\s]+\|(?!\S)")
 
 _WIDTH_TOLERANT = {",", ";", "\t", "|"}
 
-_COMMA_NUMBER = r"[-+]?\d*(?:,\d+)?(?:[eE][-+]?\d+)?"
-_COMMA_NUMBERS = re.compile(rf"\s*{_COMMA_NUMBER}(?:\s+{_COMMA_NUMBER})*\s*")
-"""Numbers with decimal commas between blanks."""
+_COMMA_NUMBER = re.compile(r"[-+]?(?:\d+(?:,\d*)?|,\d+)(?:[eE][-+]?\d+)?")
+"""Whole number, or number with a decimal comma."""
 
 
 @dataclass(frozen=True)
@@ -190,7 +189,7 @@ def _refine_layout(lines: Sequence[str], layout: TableLayout) -> TableLayout:
     text = "".join(samples)
     decimal_comma = separator != "," and "," in text and "." not in text
     if decimal_comma and separator is None:
-        decimal_comma = all(_COMMA_NUMBERS.fullmatch(line) and len(line.split()) == len(names) for line in samples)
+        decimal_comma = all(_has_comma_numbers(line) and len(line.split()) == len(names) for line in samples)
     return TableLayout(tuple(names), layout.body, separator, decimal_comma)
 
 
@@ -198,9 +197,14 @@ def find_separator(line: str) -> str | None:
     """Return the separator of a line: semicolon, tab, comma, vertical bar, else None for blanks."""
     # the comma after semicolons and tabs: beside them it may be a decimal comma
     mark = next((mark for mark in (";", "\t", ",", "|") if mark in line), None)
-    if mark == "," and len(line.split()) > 1 and _COMMA_NUMBERS.fullmatch(line):
+    if mark == "," and len(line.split()) > 1 and _has_comma_numbers(line):
         return None
     return None if mark == "|" and _ABSOLUTE_VALUE.search(line) else mark
+
+
+def _has_comma_numbers(line: str) -> bool:
+    """Return whether a line has nothing but numbers between blanks, with decimal commas."""
+    return all(_COMMA_NUMBER.fullmatch(cell) for cell in line.split())
 
 
 def _separator_of(line: str, lines: Sequence[str]) -> str | None:
