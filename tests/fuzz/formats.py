@@ -317,6 +317,7 @@ WRITERS |= {
     "afad": lambda rows: world.afad(rows).encode(),
     "unam": lambda rows: world.unam(rows).encode(),
     "bhrc": lambda rows: world.bhrc(rows).encode(),
+    "csmnc": lambda rows: world.csmnc(rows[1]).encode(),
     "renadic": lambda rows: world.renadic(rows).encode(),
     "usc v1": lambda rows: world.usc_v1(rows[0], UNEVEN, form="7.3f", margin=" ").encode(),
     "usc v2": lambda rows: world.usc_v2(rows[0]).encode(),

@@ -1,4 +1,4 @@
-"""AFAD, UNAM, BHRC, RENADIC, USC, ASDF, telephones, Excel, archives of CESMD: units, peaks, directions, counts; damaged files."""
+"""AFAD, UNAM, BHRC, CSMNC, RENADIC, USC, ASDF, telephones, Excel, archives of CESMD: units, peaks, directions, counts; damaged files."""
 
 from __future__ import annotations
 
@@ -451,7 +451,7 @@ def test_afad_files_in_the_layout_of_esm(tmp_path, start):
     assert (record.location, record.metadata["station_name"]) == ("", "Synthetic Merkez Turkiye")
 
 
-@pytest.mark.parametrize("kind", ["afad", "esm", "cosmos", "smc"])
+@pytest.mark.parametrize("kind", ["afad", "esm", "cosmos", "smc", "csmnc"])
 def test_velocities_beside_accelerations_in_an_archive_are_skipped(tmp_path, kind):
     """Downloads contain velocities, displacements or spectra of the same record; alone they are rejected."""
     row = ROWS[0]
@@ -460,6 +460,7 @@ def test_velocities_beside_accelerations_in_an_archive_are_skipped(tmp_path, kin
         "esm": (layouts.esm(row, stream="HNN"), layouts.esm(row, stream="HNN", data="ACCELERATION RESPONSE SPECTRUM")),
         "cosmos": (layouts.cosmos(row), layouts.cosmos(row, title="Velocity data")),
         "smc": (layouts.smc(row), layouts.smc(row).replace("CORRECTED ACCELEROGRAM", "VELOCITY")),
+        "csmnc": (world.csmnc(row), world.csmnc(row, quantity="VELOCITY")),
     }[kind]
     path = tmp_path / "download.zip"
     with zipfile.ZipFile(path, "w") as archive:
@@ -470,3 +471,44 @@ def test_velocities_beside_accelerations_in_an_archive_are_skipped(tmp_path, kin
     np.testing.assert_allclose(record.components[0].acceleration, row / 100.0, atol=1e-4)
     with pytest.raises(RecordFormatError):
         read(written(tmp_path, velocity.encode(), "a_vel.asc"))
+
+
+def test_read_csmnc(tmp_path):
+    """Three files numbered one after another are one record; the next three are another station's; clocks are Beijing time."""
+    for number, (code, row) in enumerate((("EW", EAST), ("NS", NORTH), ("UD", UP)), 1):
+        written(tmp_path, world.csmnc(row, code, number=number), f"ua000{number}.dat")
+    written(tmp_path, world.csmnc(2.0 * EAST).replace("65SYN", "65OTH"), "ua0004.dat")
+    for number in (1, 2, 3):
+        record = read(tmp_path / f"ua000{number}.dat")
+        assert_equal_gal(record, {"NS": NORTH, "EW": EAST, "UD": UP}, 6e-5)
+        assert (record.dt, record.station, record.start) == (DT, "65SYN", START_TIME)
+        assert record.doubts == ()
+    assert record.metadata["origin_time"] == datetime(2020, 1, 2, 3, 4, tzinfo=UTC)
+    assert (record.metadata["station_longitude_deg"], record.metadata["magnitude"]) == (77.599, 4.0)
+    other = read(tmp_path / "ua0004.dat")
+    assert (other.codes, other.station) == (("EW",), "65OTH")
+    assert read(written(tmp_path, world.csmnc(EAST, recorder=""), "record.dat")).start is None
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("UNIT: CM/SEC/SEC", "UNIT: V", "expected acceleration and its unit"),
+        ("COMP. EW", "COMP. LEFT", "expected a component such as EW, found 'LEFT'"),
+        (f"OF:  {DT:.3f}", "OF:  0.000", "line 12: expected a sampling interval above 0 s"),
+        (" -", " x", "line 17: expected a number"),
+    ],
+)
+def test_damaged_csmnc_is_rejected(tmp_path, old, new, says):
+    """One sentence with the line."""
+    with pytest.raises(RecordFormatError, match=re.escape(says)):
+        read(written(tmp_path, world.csmnc(EAST).replace(old, new)))
+
+
+def test_contradictions_in_csmnc_are_flagged(tmp_path):
+    """Count, peak and duration of the header against the samples."""
+    text = world.csmnc(EAST)
+    cut = "\n".join(text.split("\n")[:-4])
+    assert {flag.kind for flag in read(written(tmp_path, cut)).doubts} >= {"count"}
+    peak = re.search(r"PEAK VALUE: +(\S+)", text)[1]
+    assert [flag.kind for flag in read(written(tmp_path, text.replace(peak, "99.999"))).doubts] == ["header"]

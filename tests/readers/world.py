@@ -1,4 +1,4 @@
-"""Synthetic files in the layouts of AFAD, UNAM, BHRC, RENADIC and USC, written for tests: no agency's numbers are in them."""
+"""Synthetic files in the layouts of AFAD, UNAM, BHRC, CSMNC, RENADIC and USC, written for tests: no agency's numbers are in them."""
 
 from __future__ import annotations
 
@@ -87,6 +87,32 @@ def bhrc(rows: Rows, *, azimuths: str = "Azimuth L 324   T 54 ", end: bool = Tru
         text += fortran([0] * 100, 16, "5d") + fortran([0.0] * 50, 8, "13.6E")
         text += fortran([f"{x:.6E}" for x in row], 10, ">13") + ("/&\n" if end or name != "T3" else "")
     return text
+
+
+def csmnc(row, component: str = "EW", *, number: int = 1, quantity: str = "ACCELERATION", recorder: str = "2020-01-2 11:04:05.250") -> str:
+    """Return one component in the layout of CSMNC; the recorder time may be missing."""
+    row = np.round(row, 4)
+    at = int(np.abs(row).argmax())
+    head = [
+        f"065SYN2001021104{number:02}",
+        "0200102110400 2020-01-02 11:4:0 BTM",
+        "SYNTHETIC EARTHQUAKE, NOWHERE,CHN",
+        "EPICENTER  39.939N 77.339E DEPTH 9 KM",
+        "MAGNITUDE  4.0(Ms)",
+        "STATION: 65SYN 39.700N 77.599E",
+        "SITE CONDITION: SOIL",
+        "INSTRUMENT TYPE: NONE/NONE",
+        "OBSERVING POINT: GROUND",
+        f"COMP. {component}",
+        f"UNCORRECTED {quantity}          UNIT: CM/SEC{'/SEC' if quantity == 'ACCELERATION' else ''}",
+        f"NO. OF POINTS:  {row.size}  EQUALLY SPACED INTERVALS OF:  {DT:.3f}  SEC",
+        f"PEAK VALUE:    {row[at]:.3f}   AT   {at * DT:.2f} SEC    DURATION:  {row.size * DT:g} SEC",
+        "PRE-EVENT TIME:  20  SEC" + (f"  RECORDER TIME:  {recorder} BTM" if recorder else ""),
+        "CSMNC",
+        "",
+    ]
+    cells = [f"{value:13.6E}".replace("E+0", "E").replace("E-0", "E-") for value in row]
+    return "\n".join(head) + "\n" + "".join(" ".join(cells[k : k + 8]) + " \n" for k in range(0, len(cells), 8))
 
 
 def pairs(values, times) -> str:
