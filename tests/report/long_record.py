@@ -198,7 +198,7 @@ def rates(*, after=False):
 @functools.cache
 def shaking_estimates():
     survey, assumptions = counted_survey(AOYAMA, 35, 100), make_assumptions(None)
-    return "aoyama", survey, assumptions, [estimate_shaking(survey, f, assumptions) for f in (0.5, 1.0, 2.0, 3.0)]
+    return "aoyama", survey, assumptions, [estimate_shaking(survey, f, assumptions) for f in (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)]
 
 
 @functools.cache

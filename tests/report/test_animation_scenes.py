@@ -95,6 +95,16 @@ def test_view_box_contains_every_corner_of_every_frame(jump_film):
                 assert (corners >= [left, bottom]).all() and (corners <= [right, top]).all()
 
 
+def test_scale_bar_is_below_the_ground_marks_of_a_block_on_plinths():
+    """The bar lay across a plinth and the marks on the ground."""
+    still = np.zeros(2)
+    body = Body((Piece(rectangle(-1.0, 1.0, 0.0, 3.0), "w"),), still, still, still)
+    scene = Scene2D(still, (body,), (rectangle(-9.0, 9.0, -3.3, -0.3), rectangle(-1.1, -0.9, -0.3, 0.0)))
+    bottom, top = scene.extent[2:]
+    # the bar is 4 % of the height above the bottom
+    assert bottom + 0.04 * (top - bottom) < -0.3 - 0.04 * (top - bottom)
+
+
 def test_animation_page_is_self_contained(jump_film):
     """Data, script and style stand in the page; what it holds is the film to 0.01 mm."""
     page = animation_html(jump_film, AnimationOptions(slow=4.0))

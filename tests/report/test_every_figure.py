@@ -131,6 +131,7 @@ def test_small_size_fits_or_is_rejected_with_sufficient_size(name, monkeypatch):
         ("respond, two", "en"),
         ("uplift", "ja"),
         ("uplift, two", "en"),
+        ("estimate", "en"),
     ],
 )
 def test_panels_stack_vertically_at_column_width(name, lang):

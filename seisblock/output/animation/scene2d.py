@@ -90,7 +90,7 @@ class Scene2D:
 
     @property
     def extent(self) -> Box:
-        """Bounding box of all bodies in all frames with a margin, in a fixed frame."""
+        """Bounding box of the ground and of all bodies in all frames with a margin, in a fixed frame."""
         bounds = [
             (np.min(x + self.shift), np.max(x + self.shift), np.min(z), np.max(z))
             for body in self.bodies
@@ -98,6 +98,8 @@ class Scene2D:
             for x, z in (body.path(corner) for corner in piece.corners)
         ]
         left, right, bottom, top = (function([r[i] for r in bounds]) for i, function in enumerate((min, max, min, max)))
+        if self.floors:
+            bottom = min(bottom, self.floors[0][:, 1].max())
         margin = 0.12 * max(right - left, top - bottom)
         return float(left - margin), float(right + margin), float(bottom - margin), float(top + margin)
 

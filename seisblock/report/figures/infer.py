@@ -15,7 +15,18 @@ from seisblock.core.i18n import format_percent, gettext
 from seisblock.core.typing import FloatArray
 from seisblock.output.figures.heading import panel_label, records_heading
 from seisblock.output.figures.log_ticks import round_ticks
-from seisblock.output.figures.style import ACCENT, INPUT, SECOND, add_legend, draw_thresholds, label_axes, new_figure, set_panel_title
+from seisblock.output.figures.style import (
+    ACCENT,
+    INPUT,
+    SECOND,
+    StyledFigure,
+    add_legend,
+    draw_thresholds,
+    label_axes,
+    narrow_too,
+    new_figure,
+    set_panel_title,
+)
 from seisblock.output.units_display import acceleration_unit, length_unit
 from seisblock.records import Record
 from seisblock.studies.survey.assumptions import Assumptions
@@ -42,10 +53,13 @@ FREQUENCIES = tuple(np.geomspace(0.3, 4.0, 31).tolist())
 """Frequencies of the contour, Hz."""
 
 
+@narrow_too
 def estimate_figure(
-    name: str, survey: Survey, assumptions: Assumptions, estimates: Sequence[ShakingEstimate], *, gal: bool = True
-) -> Figure:
+    name: str, survey: Survey, assumptions: Assumptions, estimates: Sequence[ShakingEstimate], *, gal: bool = True, narrow: bool = False
+) -> StyledFigure:
     """Return the figure: bands of PGA over frequency, and the likelihood over PGA at given frequencies.
+
+    Panels stacked if `narrow`.
 
     Parameters
     ----------
@@ -57,7 +71,11 @@ def estimate_figure(
         Unit of accelerations, else m/s^2.
     """
     title = gettext("{name}: {fallen} of {all} stones overturned", name=name, fallen=survey.fell, all=survey.stone_count)
-    figure, (left, right) = new_figure(1, columns=2, width=9.6, height=4.2, title=title)
+    figure, (left, right) = (
+        new_figure(2, width=5.0, height=8.0, sharex=False, title=title)
+        if narrow
+        else new_figure(1, columns=2, width=9.6, height=4.2, title=title)
+    )
     unit, _ = acceleration_unit(gal=gal)
     _draw_contour(left, survey, assumptions, gal=gal)
     selection = [estimate for estimate in estimates if estimate.stones == estimates[-1].stones and estimate.frequency_hz is not None]
