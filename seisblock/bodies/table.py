@@ -453,7 +453,7 @@ def _require_known(columns: Sequence[str], header: Sequence[str], source: str, l
                 known=[*TEXT_COLUMNS, *LENGTH_COLUMNS, "mass", *NUMBER_COLUMNS, "inset"],
             )
     if "name" not in columns:
-        raise BodyError("{source}, line {line}: column name required; found {found}", source=source, line=line, found=list(header))
+        raise BodyError("{source}, line {line}: a column 'name' is required; found {found}", source=source, line=line, found=list(header))
 
 
 def _with_ratio(values: dict[str, Any]) -> dict[str, Any]:

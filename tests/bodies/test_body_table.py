@@ -118,7 +118,7 @@ def test_body_table_rows_may_name_bodies_or_files(tmp_path):
         ("", "contains no bodies"),
         ("name,width\n", "contains no bodies"),
         ("name,width,colour\na,1,red\n", "line 1: unknown column 'colour'"),
-        ("width,height\n1,2\n", "line 1: column name required"),
+        ("width,height\n1,2\n", "line 1: a column 'name' is required"),
         ("name,width,幅\na,1,2\n", "two columns mean width"),
         ("name,width (gal)\na,1\n", "gal"),
         ("name,mu (cm)\na,1\n", "unit 'cm' of column 'mu .cm.' is not known; known: none"),

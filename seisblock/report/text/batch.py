@@ -53,9 +53,10 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
             objects=objects,
             total=total,
         )
-    yield styled_line(
-        gettext("{whole} (bodies: {bodies}, records: {records})", whole=total, bodies=len(tally.bodies), records=tally.records), "bold"
-    )
+    if answers:
+        yield styled_line(
+            gettext("{whole} (bodies: {bodies}, records: {records})", whole=total, bodies=len(tally.bodies), records=tally.records), "bold"
+        )
     bodies = tally.sorted_counts()
     if bodies and answers:
         header = [

@@ -73,6 +73,7 @@ def test_batch_without_any_answer_writes_no_table(folder):
         line = f"--bodies bodies.csv --solver rock --out t.{suffix}"
         answer = run(f"batch gone.csv {line}")
         assert answer.exit_code == 3 and "no row has a result" in answer.stderr and "is not written" in answer.stderr
+        assert "0 of 0" not in answer.stdout
         assert "gone.csv: no such file" in answer.stdout and "wrote" not in answer.stderr
         assert not list(folder.glob(f"t.{suffix}*"))
         assert run(f"batch records/r0.csv {line}").exit_code == 0
