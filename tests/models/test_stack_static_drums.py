@@ -124,7 +124,7 @@ def test_shaken_drums_below_static_friction_do_not_slide():
 def test_unconverged_steps_of_extreme_mass_ratio_are_reported():
     """A stone under one 3000 times as heavy creeps, with a warning; at 1000 times it creeps less in fine steps; at 30 it rests."""
     push, slips = 0.1 * G, {}
-    for ratio, step in ((30.0, None), (1000.0, None), (1000.0, 1e-3), (3000.0, None)):
+    for ratio, step in ((30.0, None), (1000.0, None), (1000.0, 5e-4), (3000.0, None)):
         stones = (PileStone("a", 0.6, 0.6, 0.6), PileStone("b", 0.5, 0.5, 0.7, on="a", density=ratio * 2650.0))
         shaking = noise(np.random.default_rng(3), push, seconds=3.0)
         response = solve_stack(Pile("pile", stones, mu=0.7), shaking, step=step)
@@ -132,7 +132,7 @@ def test_unconverged_steps_of_extreme_mass_ratio_are_reported():
         messages = any("did not converge" in str(warning) for warning in response.warnings)
         assert messages == (ratio > 1000.0) or ratio == 1000.0
     assert slips[30.0, None] < 1e-5
-    assert slips[1000.0, 1e-3] < 0.5 * slips[1000.0, None] < 1e-4
+    assert slips[1000.0, 5e-4] < 0.5 * slips[1000.0, None] < 1e-4
 
 
 def test_light_drum_on_a_tower_of_drums_does_not_slide():

@@ -28,7 +28,8 @@ from seisblock.models.stack.step import BOX_EDGES, CARRIER, JOINT, LEVEL, ORBITS
 from seisblock.records.motion import UP
 
 GROUND_HALF, GROUND_DEPTH = 1e5, 50.0
-"""Half width and half depth of the box that represents the ground, m: wide enough for a drum that rolls far."""
+"""Half width and half depth of the box that represents the ground over the longest side of a stone: wide enough for a drum that rolls
+far."""
 
 PLASTIC_RESTITUTION = -1.0
 """Restitution of joints without a given value: negative marks a plastic impact."""
@@ -154,7 +155,9 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, restitutio
         boxes[i, :3] = 0.5 * np.array(stone.size)
         boxes[i, BOX_CENTRE:] = centres[i] - bodies[owner[i], X : X + 3]
     # the ground's upper face is the plane z = 0
-    boxes[-1] = (GROUND_HALF, GROUND_HALF, GROUND_DEPTH, 0.0, 0.0, -GROUND_DEPTH)
+    length = 2.0 * float(boxes[:-1, :3].max())
+    half, depth = GROUND_HALF * length, GROUND_DEPTH * length
+    boxes[-1] = (half, half, depth, 0.0, 0.0, -depth)
     pairs = np.array([(i, j) for i in range(len(boxes)) for j in range(i + 1, len(boxes)) if owner[i] != owner[j]], dtype=np.int64)
     integers, constants, grids, wear = _joint_arrays(body, contact, points, restitution, joints, boxes, owner, inertias, pairs)
     corners, counts, edges, cores, rims = build_hulls(body, boxes, wear)

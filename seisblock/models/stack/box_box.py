@@ -27,16 +27,15 @@ CARRIER_FACES, EDGE_EDGE = 14, 28
 FACE_AXIS = 4
 """Index of the best face axis behind the best axis of all."""
 
-AXIS_BIAS = 1e-5
-"""Extra gap, m, for which a carrier face is preferred to a partner face, and an edge-edge axis to either: keeps the choice stable.
+MARGIN_RATIO = 2.5e-5
+"""Contact margin of two boxes over half the length of the smaller one: extra gap for which a carrier face is preferred to a partner face,
+and an edge-edge axis to either, which keeps the choice stable; and distance beyond the border of a face or the end of an edge within which
+a point counts as on it.
 
 Among edge-edge axes the widest gap wins without a bias, as only the edges of that axis cross."""
 
 PARALLEL_TOLERANCE = 1e-8
 """Squared sine of the angle below which two edges count as parallel."""
-
-FACE_MARGIN = 1e-5
-"""Distance, m, beyond the border of a face or the end of an edge within which a point counts as on it."""
 
 MAX_POINTS = 9
 
@@ -47,6 +46,12 @@ def _support_distance(x, y, z, half):
     return abs(x) * half[0] + abs(y) * half[1] + abs(z) * half[2]
 
 
+@kernel(_t.float64(_t.int64, _t.int64, MATRIX), inline=True)
+def smaller_half_length(c, p, boxes):
+    """Return half the length of the smaller one of two stones, m."""
+    return min(max(boxes[c, 0], max(boxes[c, 1], boxes[c, 2])), max(boxes[p, 0], max(boxes[p, 1], boxes[p, 2])))
+
+
 @kernel(_t.void(_t.float64, _t.float64, _t.float64, _t.int64, VECTOR), inline=True)
 def _set_axis(x, y, z, kind, axis):
     axis[0] = x
@@ -55,8 +60,8 @@ def _set_axis(x, y, z, kind, axis):
     axis[KIND] = kind
 
 
-@kernel(_t.float64(VECTOR, VECTOR, VECTOR, _t.float64, VECTOR))
-def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
+@kernel(_t.float64(VECTOR, VECTOR, VECTOR, _t.float64, _t.float64, VECTOR))
+def separating_axis(rel, carrier_half, partner_half, cutoff, margin, axis):
     """Return the widest gap between two boxes, m, negative where they overlap, and write the separating axis.
 
     Parameters
@@ -67,6 +72,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
         Half sizes of the carrier and of the partner.
     cutoff : float, m
         Gap along a face normal beyond which edges need no test.
+    margin : float, m
     axis : (8,) array
         Result: normal out of the partner, in its axes, and kind; then the same for the best face axis.
     """
@@ -87,7 +93,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
         d = x * d0 + y * d1 + z * d2
         side = 1.0 if d > 0.0 else -1.0
         gap = side * d - carrier_half[j] - _support_distance(x, y, z, partner_half)
-        if gap > max_gap + AXIS_BIAS:
+        if gap > max_gap + margin:
             max_gap = gap
             _set_axis(side * x, side * y, side * z, CARRIER_FACES + j, axis)
     # the best face axis is kept: an edge-edge contact uses it for the corners that come to rest on the face
@@ -96,7 +102,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
     # more axes can only widen the gap: the boxes are out of reach already
     if max_gap > cutoff:
         return max_gap
-    threshold = max_gap + AXIS_BIAS
+    threshold = max_gap + margin
     for i in range(3):
         for j in range(3):
             x, y, z = rel[j], rel[3 + j], rel[6 + j]
@@ -127,8 +133,8 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
     return max_gap
 
 
-@kernel(_t.boolean(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR))
-def edge_edge(rel, carrier_half, partner_half, axis, y):
+@kernel(_t.boolean(VECTOR, VECTOR, VECTOR, _t.float64, VECTOR, VECTOR))
+def edge_edge(rel, carrier_half, partner_half, margin, axis, y):
     """Write the point of the carrier's edge nearest to the partner's, in the partner's axes; return whether the edges cross."""
     i, j = (int(axis[KIND]) - EDGE_EDGE) // 3, (int(axis[KIND]) - EDGE_EDGE) % 3
     # centre of the carrier's edge nearest to the partner along the axis; the partner's edge likewise below
@@ -157,7 +163,7 @@ def edge_edge(rel, carrier_half, partner_half, axis, y):
     y[1] = a1 + carrier_offset * t
     y[2] = a2 + carrier_offset * z
     # the axis separates the lines of the edges; they touch only where the nearest points lie on both edges
-    return abs(carrier_offset) < carrier_half[j] + FACE_MARGIN and abs(partner_offset) < partner_half[i] + FACE_MARGIN
+    return abs(carrier_offset) < carrier_half[j] + margin and abs(partner_offset) < partner_half[i] + margin
 
 
 @kernel(_t.int64(_t.int64, MATRIX, _t.int64, _t.float64, _t.float64, MATRIX))
@@ -181,14 +187,15 @@ def _clip_polygon(n, polygon, k, side, limit, result):
     return count
 
 
-@kernel(_t.int64(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
-def face_manifold(rel, carrier_half, partner_half, axis, view, points, buffer):
+@kernel(_t.int64(VECTOR, VECTOR, VECTOR, _t.float64, VECTOR, VECTOR, MATRIX, MATRIX))
+def face_manifold(rel, carrier_half, partner_half, margin, axis, view, points, buffer):
     """Write the contact manifold of two faces and return its number of points.
 
     Parameters
     ----------
     rel : (18,) array
     carrier_half, partner_half : (3,) arrays, m
+    margin : float, m
     axis : (4,) array
         Normal of the reference face, and kind.
     view, points, buffer : (18,), (9, 18), (9, 18) arrays
@@ -221,8 +228,8 @@ def face_manifold(rel, carrier_half, partner_half, axis, view, points, buffer):
     # clip the incident face by the four sides of the reference face
     for k in range(3):
         if k != i:
-            count = _clip_polygon(count, points, k, 1.0, reference_half[k] + FACE_MARGIN, buffer)
-            count = _clip_polygon(count, buffer, k, -1.0, reference_half[k] + FACE_MARGIN, points)
+            count = _clip_polygon(count, points, k, 1.0, reference_half[k] + margin, buffer)
+            count = _clip_polygon(count, buffer, k, -1.0, reference_half[k] + margin, points)
     for q in range(count):
         a0, a1, a2 = points[q, 0], points[q, 1], points[q, 2]
         # contact points stay on the incident face; the gap is measured along the reference normal

@@ -14,8 +14,9 @@ _t = types()
 BROAD_PHASE_INTERVAL = 1e-3
 """Interval between updates of the bounding boxes, s; longer steps update them every time."""
 
-AABB_MARGIN, SPEED_FACTOR = 0.01, 2.0
-"""Constant margin of the bounding boxes, m, and factor on the speed of the fastest corner: an impact may reverse or increase a velocity."""
+AABB_MARGIN_RATIO, SPEED_FACTOR = 0.02, 2.0
+"""Constant margin of the bounding boxes over half the length of a stone, and factor on the speed of the fastest corner: an impact may
+reverse or increase a velocity."""
 
 
 @kernel(_t.float64(MATRIX, MATRIX, INTEGERS))
@@ -36,10 +37,12 @@ def max_corner_speed(bodies, boxes, owner):
 def update_aabbs(bodies, boxes, owner, dt, bounds):
     """Write the bounding boxes, valid until the next update: centres and half sizes along the ground's axes, m."""
     # a box may move at the speed of the fastest corner until the next update
-    margin = AABB_MARGIN + SPEED_FACTOR * max(dt, BROAD_PHASE_INTERVAL) * max_corner_speed(bodies, boxes, owner)
+    path = SPEED_FACTOR * max(dt, BROAD_PHASE_INTERVAL) * max_corner_speed(bodies, boxes, owner)
     for i in range(boxes.shape[0]):
         b = bodies[owner[i]]
         box = boxes[i]
+        # the ground, last, needs no margin
+        margin = path + (AABB_MARGIN_RATIO * max(box[0], max(box[1], box[2])) if i < boxes.shape[0] - 1 else 0.0)
         for k in range(3):
             r = R + 3 * k
             bounds[i, k] = b[X + k] + b[r] * box[BOX_CENTRE] + b[r + 1] * box[BOX_CENTRE + 1] + b[r + 2] * box[BOX_CENTRE + 2]

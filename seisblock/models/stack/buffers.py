@@ -29,9 +29,9 @@ class ShapeKernels(NamedTuple):
     face_overlap: Callable[..., Any]
 
 
-SEPARATING_AXIS_KERNEL = _t.float64(VECTOR, _t.int64, _t.int64, _t.float64, BLOCK, INTEGERS, MATRIX, VECTOR)
-EDGE_EDGE_KERNEL = _t.boolean(VECTOR, _t.int64, _t.int64, BLOCK, INTEGERS, VECTOR, MATRIX, VECTOR)
-FACE_MANIFOLD_KERNEL = _t.int64(VECTOR, _t.int64, _t.int64, BLOCK, INTEGERS, VECTOR, MATRIX, _t.float64, MATRIX, MATRIX)
+SEPARATING_AXIS_KERNEL = _t.float64(VECTOR, _t.int64, _t.int64, _t.float64, _t.float64, BLOCK, INTEGERS, MATRIX, VECTOR)
+EDGE_EDGE_KERNEL = _t.boolean(VECTOR, _t.int64, _t.int64, _t.float64, BLOCK, INTEGERS, VECTOR, MATRIX, VECTOR)
+FACE_MANIFOLD_KERNEL = _t.int64(VECTOR, _t.int64, _t.int64, _t.float64, BLOCK, INTEGERS, VECTOR, MATRIX, _t.float64, MATRIX, MATRIX)
 FACE_OVERLAP_KERNEL = _t.int64(_t.int64, _t.int64, VECTOR, BLOCK, MATRIX, BLOCK, VECTOR, MATRIX, MATRIX)
 
 

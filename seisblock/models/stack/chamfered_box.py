@@ -14,7 +14,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import MATRIX, VECTOR
-from seisblock.models.stack.box_box import AXIS_BIAS, CARRIER_FACES, EDGE_EDGE, FACE_AXIS, FACE_MARGIN, KIND, PARALLEL_TOLERANCE
+from seisblock.models.stack.box_box import CARRIER_FACES, EDGE_EDGE, FACE_AXIS, KIND, PARALLEL_TOLERANCE
 from seisblock.models.stack.buffers import EDGE_EDGE_KERNEL, SEPARATING_AXIS_KERNEL
 from seisblock.models.stack.mesh_topology import MAX_EDGES, OFFSET, PLANE, RING_SIZE, edge_topology, plane_distance, to_partner_axes
 from seisblock.models.stack.spring_contact import REL_D
@@ -54,13 +54,13 @@ def _min_distance(plane, corners, count, cutoff):
 
 
 @kernel(_t.boolean(_t.int64, _t.float64, MATRIX, _t.int64, MATRIX, _t.int64), inline=True)
-def _projects_onto_face(face, gap, hull, n_hull, corners, count):
-    """Return whether a corner at the smallest distance from a face projects onto it: no other axis then has a wider gap."""
+def _projects_onto_face(face, max_distance, hull, n_hull, corners, count):
+    """Return whether a corner nearest to a face, within a distance, projects onto it: no other axis then has a wider gap."""
     plane = hull[face, PLANE:]
     for i in range(count):
         corner = corners[i]
         distance = plane_distance(plane, corner)
-        if distance > gap + AXIS_BIAS:
+        if distance > max_distance:
             continue
         is_over = True
         for f in range(n_hull - 2):
@@ -100,7 +100,7 @@ def _transform_edges(count, partner_hull, n_partner, carrier_hull):
 
 
 @kernel(SEPARATING_AXIS_KERNEL)
-def separating_axis_chamfered(rel, c, p, cutoff, corners, counts, carrier_hull, axis):
+def separating_axis_chamfered(rel, c, p, cutoff, margin, corners, counts, carrier_hull, axis):
     """Return the widest gap between two boxes, m, negative where they overlap, and write the separating axis.
 
     Parameters
@@ -111,6 +111,7 @@ def separating_axis_chamfered(rel, c, p, cutoff, corners, counts, carrier_hull, 
         Carrier and partner.
     cutoff : float, m
         Gap along a face normal beyond which no other axis needs a test.
+    margin : float, m
     corners, counts : (b, 16, 7), (b,) arrays
         Of all boxes, see :class:`seisblock.models.stack.buffers.PileLayout`.
     carrier_hull : (16, 18) array
@@ -133,8 +134,8 @@ def separating_axis_chamfered(rel, c, p, cutoff, corners, counts, carrier_hull, 
         return max_gap
     # the carrier's faces must win by a margin, so that the choice does not alternate between steps
     for f in range(count - 2):
-        gap = _min_distance(carrier_hull[f, PLANE:], partner_hull, n_partner, max_gap + AXIS_BIAS)
-        if gap > max_gap + AXIS_BIAS:
+        gap = _min_distance(carrier_hull[f, PLANE:], partner_hull, n_partner, max_gap + margin)
+        if gap > max_gap + margin:
             max_gap = gap
             for k in range(3):
                 axis[k] = -carrier_hull[f, PLANE + k]
@@ -143,18 +144,16 @@ def separating_axis_chamfered(rel, c, p, cutoff, corners, counts, carrier_hull, 
         axis[FACE_AXIS + k] = axis[k]
     if max_gap > cutoff:
         return max_gap
-    face, is_carrier_face = int(axis[KIND]), axis[KIND] >= CARRIER_FACES
-    if (
-        is_carrier_face
-        and max_gap > -AXIS_BIAS
-        and _projects_onto_face(face - CARRIER_FACES, max_gap, carrier_hull, count, partner_hull, n_partner)
+    face, nearest = int(axis[KIND]), max_gap + margin
+    if nearest > 0.0 and (
+        _projects_onto_face(face - CARRIER_FACES, nearest, carrier_hull, count, partner_hull, n_partner)
+        if face >= CARRIER_FACES
+        else _projects_onto_face(face, nearest, partner_hull, n_partner, carrier_hull, count)
     ):
-        return max_gap
-    if not is_carrier_face and max_gap > -AXIS_BIAS and _projects_onto_face(face, max_gap, partner_hull, n_partner, carrier_hull, count):
         return max_gap
     # no corner projects onto the best face: the widest gap may be along an edge-edge axis
     _transform_edges(count, partner_hull, n_partner, carrier_hull)
-    threshold = max_gap + AXIS_BIAS
+    threshold = max_gap + margin
     for i in range(2 * n_partner - RING_SIZE):
         start_index, end_index, face_left, face_right = edge_topology(i, n_partner)
         start, a, b = partner_hull[start_index], partner_hull[face_left], partner_hull[face_right]
@@ -189,7 +188,7 @@ def separating_axis_chamfered(rel, c, p, cutoff, corners, counts, carrier_hull, 
 
 
 @kernel(EDGE_EDGE_KERNEL)
-def edge_edge_chamfered(rel, c, p, corners, counts, axis, ends, y):
+def edge_edge_chamfered(rel, c, p, margin, corners, counts, axis, ends, y):
     """Write the point of the carrier's edge nearest to the partner's, in the partner's axes; return whether the edges cross."""
     edge = int(axis[KIND]) - EDGE_EDGE
     p_start, p_end, _, _ = edge_topology(edge // MAX_EDGES, counts[p])
@@ -210,5 +209,5 @@ def edge_edge_chamfered(rel, c, p, corners, counts, axis, ends, y):
     partner_t = (re + carrier_t * eg) / ee
     for k in range(3):
         y[k] = ends[0, k] + carrier_t * (ends[1, k] - ends[0, k])
-    carrier_margin, partner_margin = FACE_MARGIN / math.sqrt(gg), FACE_MARGIN / math.sqrt(ee)
+    carrier_margin, partner_margin = margin / math.sqrt(gg), margin / math.sqrt(ee)
     return -carrier_margin < carrier_t < 1.0 + carrier_margin and -partner_margin < partner_t < 1.0 + partner_margin

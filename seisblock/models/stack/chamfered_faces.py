@@ -6,7 +6,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import BLOCK, INTEGERS, MATRIX, VECTOR
-from seisblock.models.stack.box_box import CARRIER_FACES, FACE_MARGIN, KIND
+from seisblock.models.stack.box_box import CARRIER_FACES, KIND
 from seisblock.models.stack.buffers import FACE_MANIFOLD_KERNEL
 from seisblock.models.stack.mesh_topology import OFFSET, PLANE, RING_SIZE, face_corner, plane_distance, to_partner_axes
 
@@ -75,8 +75,8 @@ def _clip_polygon(n, polygon, plane, result):
     return count
 
 
-@kernel(_t.void(VECTOR, _t.boolean, _t.int64, _t.int64, BLOCK, INTEGERS, VECTOR, VECTOR, MATRIX), inline=True)
-def _side_planes(rel, is_carrier, reference_box, face, corners, counts, out, y, borders):
+@kernel(_t.void(VECTOR, _t.boolean, _t.int64, _t.int64, _t.float64, BLOCK, INTEGERS, VECTOR, VECTOR, MATRIX), inline=True)
+def _side_planes(rel, is_carrier, reference_box, face, margin, corners, counts, out, y, borders):
     """Write the four clipping planes through the sides of a face, normal to it: outward normal, and offset plus a margin."""
     count = counts[reference_box]
     for q in range(RING_SIZE):
@@ -91,11 +91,11 @@ def _side_planes(rel, is_carrier, reference_box, face, corners, counts, out, y, 
         inward = x * (p2[0] - p0[0]) + v * (p2[1] - p0[1]) + z * (p2[2] - p0[2])
         scale = (-1.0 if inward > 0.0 else 1.0) / math.sqrt(x * x + v * v + z * z)
         border[0], border[1], border[2] = scale * x, scale * v, scale * z
-        border[OFFSET] = border[0] * p0[0] + border[1] * p0[1] + border[2] * p0[2] + FACE_MARGIN
+        border[OFFSET] = border[0] * p0[0] + border[1] * p0[1] + border[2] * p0[2] + margin
 
 
 @kernel(FACE_MANIFOLD_KERNEL)
-def face_manifold_chamfered(rel, c, p, corners, counts, axis, work, max_gap, vertices, buffer):
+def face_manifold_chamfered(rel, c, p, margin, corners, counts, axis, work, max_gap, vertices, buffer):
     """Write the contact manifold of two faces and return its number of points.
 
     A bevel may be so flat that the stone lands on the next face within one step; corners of other faces above the reference face are
@@ -105,6 +105,7 @@ def face_manifold_chamfered(rel, c, p, corners, counts, axis, work, max_gap, ver
     ----------
     rel : (18,) array
     c, p : int
+    margin : float, m
     corners, counts : (b, 16, 7), (b,) arrays
         Of all boxes, see :class:`seisblock.models.stack.buffers.PileLayout`.
     axis : (4,) array
@@ -123,7 +124,7 @@ def face_manifold_chamfered(rel, c, p, corners, counts, axis, work, max_gap, ver
     for k in range(3):
         out[k] = -axis[k] if is_carrier_face else axis[k]
         down[k] = -out[k]
-    _side_planes(rel, is_carrier_face, reference_box, face, corners, counts, out, y, borders)
+    _side_planes(rel, is_carrier_face, reference_box, face, margin, corners, counts, out, y, borders)
     _corner_position(rel, is_carrier_face, corners[reference_box, face_corner(face, 0, counts[reference_box])], y)
     level = out[0] * y[0] + out[1] * y[1] + out[2] * y[2]
     count = counts[incident_box]

@@ -29,8 +29,9 @@ from seisblock.models.stack.spring_contact import KINETIC as KINETIC_COLUMN
 
 _t = types()
 
-SPEED_MARGIN = 0.5
-"""Speed, m/s, added to :data:`~.broad_phase.SPEED_FACTOR` times the largest speed of any stone: a wider gap cannot close within a step."""
+SPEED_MARGIN_RATIO = 15.0
+"""Speed over that of a free fall over a full step, added to :data:`~.broad_phase.SPEED_FACTOR` times the largest speed of any stone: a
+wider gap cannot close within a step."""
 
 SIMULTANEITY = 0.01
 """Share of a step within which impacts count as simultaneous."""
@@ -118,7 +119,7 @@ def register_slot(old_count, new_count, kind, i, j, k, slot, contact_ids):
 @kernel(_t.float64(_t.float64, MEMORY), inline=True)
 def max_approach(dt, memory):
     """Return the largest distance, m, that any two stones can approach within a step, impacts included."""
-    return dt * (SPEED_FACTOR * memory.step_info[MAX_SPEED] + SPEED_MARGIN)
+    return dt * (SPEED_FACTOR * memory.step_info[MAX_SPEED] + SPEED_MARGIN_RATIO * memory.step_info[FREE_FALL_SPEED])
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, MEMORY), inline=True)

@@ -10,7 +10,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import BLOCK, MATRIX, VECTOR
-from seisblock.models.stack.box_box import AXIS_BIAS, FACE_MARGIN
+from seisblock.models.stack.box_box import MARGIN_RATIO, smaller_half_length
 from seisblock.models.stack.buffers import FACE_OVERLAP_KERNEL
 from seisblock.models.stack.cylinder import RADIUS, lowest_rim_point
 from seisblock.models.stack.spring_contact import REL_D
@@ -20,9 +20,9 @@ _t = types()
 MIN_NORMAL_LENGTH = 1e-9
 """Length below which a cross product of two directions counts as zero."""
 
-MERGE_RATIO, MERGE = 2e-3, 4
-"""Distance below which two points are merged, over the smallest half side or radius of both faces; and the lower face's column that holds
-it, m."""
+MERGE_RATIO, MERGE, MARGIN = 2e-3, 4, 5
+"""Distance below which two points are merged, over the smallest half side or radius of both faces; and columns of both faces that hold it
+and the contact margin, m."""
 
 MAX_SHARED_POINTS = 16
 IS_LOWEST, POINT_NORMAL = 4, 5
@@ -51,8 +51,8 @@ def _inside_outline(x, y, plan):
     """Return whether a point lies inside an outline, within a margin."""
     # stones in line share outlines: without the margin, rounding would drop their corners
     if plan[0] > 0.0:
-        return x * x + y * y < (plan[0] + FACE_MARGIN) ** 2
-    return abs(x) < plan[1] + FACE_MARGIN and abs(y) < plan[2] + FACE_MARGIN
+        return x * x + y * y < (plan[0] + plan[MARGIN]) ** 2
+    return abs(x) < plan[1] + plan[MARGIN] and abs(y) < plan[2] + plan[MARGIN]
 
 
 @kernel(_t.int64(_t.int64, _t.float64, VECTOR, VECTOR, _t.float64, _t.float64, MATRIX))
@@ -171,7 +171,7 @@ def _rim_rim_points(count, side, view, lower_face, upper_face, work, points):
     """Add the crossings of the rims of two round faces in plan: bracketed on arcs, refined by false position (Illinois)."""
     y, direction, tangent, normal = work[4], work[5], work[6], work[7]
     distance = math.sqrt((view[REL_D] + upper_face[3] * view[2]) ** 2 + (view[REL_D + 1] + upper_face[3] * view[5]) ** 2)
-    if distance < max(FACE_MARGIN, abs(upper_face[0] - lower_face[0])):  # one lies within the other, or they are one
+    if distance < max(lower_face[MARGIN], abs(upper_face[0] - lower_face[0])):  # one lies within the other, or they are one
         return count
     arc = 2.0 * math.pi / ARC_COUNT
     # arcs centred on the lowest point, so that none ends there
@@ -269,13 +269,14 @@ def face_overlap_points(c, p, rel, corners, boxes, rims, axis, work, points):
     _outline(p, 1 if side > 0.0 else 0, corners, boxes, rims, lower_face)
     _outline(c, 1 if upper_side > 0.0 else 0, corners, boxes, rims, upper_face)
     lower_face[MERGE] = MERGE_RATIO * min(_smallest_half_side(lower_face), _smallest_half_side(upper_face))
+    lower_face[MARGIN] = upper_face[MARGIN] = MARGIN_RATIO * smaller_half_length(c, p, boxes)
     gap = _face_gap(side, rel, lower_face, upper_face)
     for i in range(3):
         for j in range(3):
             view[3 * i + j] = rel[3 * j + i]
         view[REL_D + i] = -(rel[i] * rel[9] + rel[3 + i] * rel[10] + rel[6 + i] * rel[11])
     # the face with the wider gap is the reference, as in the separating-axis test
-    is_flipped = _face_gap(upper_side, view, upper_face, lower_face) > gap + AXIS_BIAS
+    is_flipped = _face_gap(upper_side, view, upper_face, lower_face) > gap + lower_face[MARGIN]
     if is_flipped:
         # from here on all is in the axes of the reference face; the points return to the partner's at the end
         side = upper_side

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import MATRIX, VECTOR
-from seisblock.models.stack.box_box import EDGE_EDGE, FACE_AXIS, KIND
+from seisblock.models.stack.box_box import EDGE_EDGE, FACE_AXIS, KIND, smaller_half_length
 from seisblock.models.stack.broad_phase import aabbs_overlap, max_corner_speed, update_aabbs
 from seisblock.models.stack.buffers import LAYOUT, MEMORY
 from seisblock.models.stack.constraint_assembly import (
@@ -44,11 +44,12 @@ _t = types()
 GRID_PAIR, FACE_PAIR, BOX_PAIR = -3, -2, -1
 """Kind of the last manifold of a pair: face on face with a cylinder, box on box, or hulls after a grid of points."""
 
-MAX_FACE_DEPTH = 1e-4
-"""Largest overlap, m, of two faces at which a pair may change from box-on-box to face-on-face contact."""
+MAX_DEPTH_RATIO = 2.5e-4
+"""Largest overlap of two faces at which a pair may change from box-on-box to face-on-face contact, over half the length of the smaller
+stone."""
 
-TOUCH_GAP = 1e-6
-"""Gap, m, below which the points of a flat joint are in contact."""
+TOUCH_RATIO = 2.5e-6
+"""Gap below which the points of a flat joint are in contact, over half the length of the smaller stone."""
 
 FLAT_TOLERANCE, UNLOADED_FACTOR, LOADED_FACTOR = 1e-6, 0.04, 8.0
 """Flat contact: 1 - cos(lean) below the first value. Factors on the impact reference speed of contacts that carried no force, and of
@@ -214,7 +215,7 @@ def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, pile, memory):
     if memory.pair_states[pair] == BOX_PAIR:
         for i in range(points):
             # a change of the contact model with an overlap would push the stones apart
-            if candidates[i, 3] < -MAX_FACE_DEPTH:
+            if candidates[i, 3] < -MAX_DEPTH_RATIO * smaller_half_length(c, p, pile.boxes):
                 return -1
     save_slots(MAX_SHARED_POINTS, slots, old_slots)
     # the rolling rim belongs to the partner if the carrier's face is the reference face
@@ -293,7 +294,7 @@ def _contacts_pair(count, pair, bodies, dt, pile, memory):
                 row[IMPACT_SPEED] *= UNLOADED_FACTOR
         if 1.0 - rel[8] < FLAT_TOLERANCE and pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] == 0.0:
             # the solver leaves the load of a flat joint in an arbitrary distribution: start from the smoothest one
-            project_to_plane(start, count, TOUCH_GAP, memory.constraint_rows)
+            project_to_plane(start, count, TOUCH_RATIO * smaller_half_length(c, p, boxes), memory.constraint_rows)
     return count
 
 

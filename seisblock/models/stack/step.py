@@ -48,8 +48,8 @@ BOX_EDGES = 12
 SCRATCH_ROWS = 36
 """Rows of scratch."""
 
-SLOW_SPIN = 1e-6
-"""Squared spin, rad^2/s^2, below which the rotation of a body within a step is neglected."""
+SLOW_ROTATION = 1e-14
+"""Squared rotation of a step, rad^2, below which its effect on the spin is neglected."""
 
 
 @kernel(_t.int64(_t.float64, VECTOR, VECTOR, VECTOR))
@@ -196,7 +196,7 @@ def drift(n, bodies, inertias, dt):
         b = bodies[i]
         for k in range(3):
             b[X + k] += dt * b[V + k]
-        if b[W] ** 2 + b[W + 1] ** 2 + b[W + 2] ** 2 > SLOW_SPIN:
+        if dt * dt * (b[W] ** 2 + b[W + 1] ** 2 + b[W + 2] ** 2) > SLOW_ROTATION:
             # midpoint rule: the spin at half the rotation, so that a free body keeps its energy
             w, x, y, z = b[Q], b[Q + 1], b[Q + 2], b[Q + 3]
             rotate(b, 0.5 * dt)

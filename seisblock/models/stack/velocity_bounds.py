@@ -15,8 +15,9 @@ _t = types()
 MIN_STEP_RATIO = 0.00390625
 """Shortest step that ends because a rim's lowest point has moved too far, over a full step."""
 
-BAUMGARTE_FACTOR, MAX_CORRECTION_SPEED = 0.2, 0.05
-"""Share of an overlap corrected per step (Baumgarte stabilisation), and largest speed of the correction, m/s."""
+BAUMGARTE_FACTOR, MAX_CORRECTION_RATIO = 0.2, 1.5
+"""Share of an overlap corrected per step (Baumgarte stabilisation), and largest speed of the correction over that of a free fall over a
+full step."""
 
 
 @kernel(_t.void(VECTOR, VECTOR, _t.float64, VECTOR), inline=True)
@@ -63,7 +64,8 @@ def set_velocity_bounds(count, dt, memory):
     A gap within the solver tolerance counts as closed: in a short step its contact would otherwise stay inactive and overload the others.
     """
     full_step = memory.step_info[FULL_STEP]
-    gap_tolerance, closing_time = TOLERANCE * memory.step_info[FREE_FALL_SPEED] * full_step, max(dt, MIN_FORCE_TIME_RATIO * full_step)
+    free_fall_speed = memory.step_info[FREE_FALL_SPEED]
+    gap_tolerance, closing_time = TOLERANCE * free_fall_speed * full_step, max(dt, MIN_FORCE_TIME_RATIO * full_step)
     for i in range(count):
         row, gap, a, b = memory.constraint_rows[i], memory.constraint_rows[i, GAP], memory.contact_ids[i, 0], memory.contact_ids[i, 1]
         row[BILATERAL] = 0.0
@@ -73,7 +75,7 @@ def set_velocity_bounds(count, dt, memory):
             row[MIN_NORMAL_VELOCITY] = (
                 -gap / (dt if gap > gap_tolerance else closing_time)
                 if gap > 0.0
-                else min(-BAUMGARTE_FACTOR * gap / full_step, MAX_CORRECTION_SPEED)
+                else min(-BAUMGARTE_FACTOR * gap / full_step, MAX_CORRECTION_RATIO * free_fall_speed)
             )
         for k in range(3):
             row[ROTATION_BIAS + k] = 0.0

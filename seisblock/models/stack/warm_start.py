@@ -11,6 +11,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.models.stack.box_box import smaller_half_length
 from seisblock.models.stack.constraint_row import ARM_B, GAP, IMPULSE, NORMAL
 from seisblock.models.stack.frames import R
 from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_SLIDING, POSITION, PREVIOUS_FORCE, SLOT
@@ -24,7 +25,7 @@ MAX_SHIFT_RATIO = 1e-3
 """Largest shift of a point on a flat face, over the stone's size, at which it keeps its force."""
 
 MIN_AREA = 1e-9
-"""Twice the area, m^2, below which a triangle is degenerate."""
+"""Twice the area of a degenerate triangle over the sum of the squares of two of its sides, at most."""
 
 MAX_TENSION_RATIO = 0.1
 """Largest tension of a redistributed load, as a share of it: enough to keep the moment of a load just outside the triangle."""
@@ -56,7 +57,7 @@ def save_slots(count, slots, old_slots):
 @kernel(_t.float64(_t.int64, _t.int64, MATRIX), inline=True)
 def match_radius(c, p, boxes):
     """Return the largest distance between an old and a new contact point of two stones that are matched, m."""
-    return MATCH_RATIO * min(max(boxes[c, 0], max(boxes[c, 1], boxes[c, 2])), max(boxes[p, 0], max(boxes[p, 1], boxes[p, 2])))
+    return MATCH_RATIO * smaller_half_length(c, p, boxes)
 
 
 @kernel(_t.void(VECTOR, MATRIX, _t.int64, _t.float64), inline=True)
@@ -170,7 +171,7 @@ def _barycentric(a, b, c, x, y):
         c[POSITION + 1] - y,
     )
     area = (b0 - a0) * (c1 - a1) - (b1 - a1) * (c0 - a0)
-    if abs(area) < MIN_AREA:
+    if abs(area) <= MIN_AREA * ((b0 - a0) ** 2 + (b1 - a1) ** 2 + (c0 - a0) ** 2 + (c1 - a1) ** 2):
         return -math.inf, -math.inf, -math.inf
     # areas of the partial triangles over that of the whole
     u, v = (b0 * c1 - b1 * c0) / area, (c0 * a1 - c1 * a0) / area
