@@ -23,6 +23,7 @@ ACCELERATION, VELOCITY = "acceleration", "velocity"
 
 _PREFIXES = {"": 1.0, "C": 1e-2, "M": 1e-3, "U": 1e-6, "N": 1e-9}
 _MOTION_UNIT = re.compile(r"([CMUN]?)M/(?:\(?(S)\)?|S(?:\*\*|\^)?2|\(S(?:\*\*|\^)2\)|S/S)")
+_LENGTH_UNIT = re.compile(r"([CMUN]?)M")
 _OTHER_UNITS = {"G": STANDARD_GRAVITY, "MG": 1e-3 * STANDARD_GRAVITY, "GAL": 1e-2, "CM/S2": 1e-2}
 
 LOWEST_HZ, PERIODS = 0.05, 10.0
@@ -167,11 +168,24 @@ def input_quantity(channel: Any, name: str) -> Quantity:
     )
     if text is None:
         raise UnitError("{channel}: the StationXML has no response; get it with level=response", channel=name)
-    quantity = parse_input_units(str(text))
+    quantity = parse_input_units(str(text)) or _displacement_of_accelerometer(str(text), response)
     if quantity is None:
         message = "{channel}: the instrument measures {unit}, neither acceleration nor velocity; give the channel of an accelerometer"
         raise UnitError(message, channel=name, unit=str(text)[:40])
     return quantity
+
+
+def _displacement_of_accelerometer(text: str, response: Any) -> Quantity | None:
+    """Return the quantity of an accelerometer whose response is stated for displacement, None for other instruments.
+
+    With two zeros at 0 the response is flat to acceleration; the sensitivity holds at its own frequency.
+    """
+    match = _LENGTH_UNIT.fullmatch(text.strip().upper())
+    zeros = [zero for stage in response.response_stages for zero in getattr(stage, "zeros", ())]
+    sensitivity = response.instrument_sensitivity
+    if match is None or sensitivity is None or not sensitivity.frequency or [abs(zero) for zero in zeros] != [0.0, 0.0]:
+        return None
+    return Quantity(ACCELERATION, _PREFIXES[match[1]] * (2.0 * np.pi * sensitivity.frequency) ** 2)
 
 
 def remove_sensitivity(values: FloatArray, channel: Any, quantity: Quantity, name: str) -> str:

@@ -250,10 +250,10 @@ def is_counts(values: FloatArray) -> bool:
 
 def _convert_with_response(name: str, trace: Any, channel: Any, options: WaveformOptions) -> Conversion:
     """Return samples after removal of the response of a channel."""
-    quantity = input_quantity(channel, trace.id)
     if options.units is not None and not options.inventory.is_requested and trace.data.dtype.kind == "f":
         # the user states the unit of samples that may have been processed
         return _convert_without_response(name, trace, "", options, None)
+    quantity = input_quantity(channel, trace.id)
     if options.units is not None:
         message = "{name}: the StationXML of {channel} gives the unit ({unit}): omit `units`"
         raise UnitError(message, name=name, channel=trace.id, unit=channel.response.instrument_sensitivity.input_units)

@@ -84,6 +84,32 @@ def test_input_units_of_other_quantities_are_rejected(tmp_path):
             read(paths[0], differentiate=True)
 
 
+@pytest.mark.parametrize(("units", "factor"), [("M", 1.0), ("cm", 0.01)])
+@pytest.mark.parametrize("zeros", [0, 1, 2, 3])
+def test_accelerometer_stated_for_displacement_is_read(zeros, units, factor, tmp_path):
+    """With two zeros at 0 the response is flat to acceleration: the sensitivity per metre at 1 Hz is divided by (2 pi Hz)^2."""
+    trace("HNN").write(str(tmp_path / "a.mseed"), "MSEED")
+    metadata = channel("HNN", units=units, stages=True, sensitivity=COUNTS_PER_UNIT * (2.0 * np.pi) ** 2)
+    metadata.response.response_stages[0].zeros = [0j] * zeros
+    inventory(metadata).write(str(tmp_path / "a.xml"), "STATIONXML")
+    if zeros == 2:
+        record = read(tmp_path / "a.mseed")
+        np.testing.assert_allclose(record.component("NS").acceleration, counts("N") / COUNTS_PER_UNIT * factor, rtol=1e-12)
+    else:
+        with pytest.raises(UnitError, match=f"measures {units}, neither acceleration nor velocity"):
+            read(tmp_path / "a.mseed")
+
+
+def test_unit_of_user_precedes_unknown_unit_of_processed_samples(tmp_path):
+    """Files of programs that converted the samples state units such as ``acc``: `units` was of no use."""
+    trace("HNN", data=counts("N") * 1.5e-3).write(str(tmp_path / "a.mseed"), "MSEED")
+    inventory(channel("HNN", units="acc", sensitivity=1.0)).write(str(tmp_path / "a.xml"), "STATIONXML")
+    with pytest.raises(UnitError, match="measures acc"):
+        read(tmp_path / "a.mseed")
+    record = read(tmp_path / "a.mseed", units="gal")
+    np.testing.assert_allclose(record.component("NS").acceleration, counts("N") * 1.5e-5, rtol=1e-12)
+
+
 def test_input_units_decide_against_channel_code(tmp_path):
     """A velocity behind HN? is refused; an acceleration behind HH? is read."""
     with pytest.raises(UnitError, match="HNN is a velocity channel"):
