@@ -141,7 +141,9 @@ def solver_fields() -> list[FormField]:
 
 def _form_field(name: str, spec: OptionField, default: Any) -> FormField:
     default_text = "" if default is MISSING or default is None else f"{default:g}" if isinstance(default, float) else str(default)
-    return FormField(name, plain_help(gettext(spec.help)), "" if spec.unit == "1" else spec.unit, spec.flag, "/" in spec.flag, default_text)
+    return FormField(
+        name, plain_help(gettext(spec.help)).rstrip("."), "" if spec.unit == "1" else spec.unit, spec.flag, "/" in spec.flag, default_text
+    )
 
 
 def solver_arguments(form: Mapping[str, str]) -> list[str]:

@@ -47,7 +47,7 @@ TWIST_OPTIONS = (
     examples=(
         "seisblock infer --rate 35/100 --cemetery aoyama.csv --plot shaking.png",
         "seisblock infer --slid 5cm --mu 0.3 record.csv",
-        "seisblock infer --twist 8 --displacement 2cm --width 24cm --height 60cm --mu 0.5 record.csv",
+        "seisblock infer --twist 3 --width 24cm --height 60cm --mu 0.5 record.csv",
     ),
 )
 @displaced_record_options

@@ -45,6 +45,8 @@ def test_fields_and_surfaces_are_in_the_language_of_the_page_and_name_no_option(
         labels = [field.label for field in forms.solver_fields()] + list(forms.surface_labels().values())
     for label in labels:
         assert re.search(r"[ぁ-んァ-ヶ一-龠]", label) and "--" not in label and "既定" not in label, label
+    with use_locale("en"):
+        assert not [field.label for field in forms.solver_fields() if field.label.endswith(".")]
 
 
 def test_bundled_body_with_its_own_values_is_named_so_that_its_ranges_apply():

@@ -3,6 +3,7 @@
 import contextlib
 import html
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -51,6 +52,14 @@ def test_repr_html_has_outcome_table_and_figure(response):
     plain = [key for key, value in vars(response.outcome).items() if isinstance(value, (int, float, str, type(None)))]
     assert len(rows) >= len(plain)
     assert not any(row.endswith(("_m", "_s")) for row in rows)
+
+
+def test_figure_of_rock_has_room_in_a_notebook():
+    """Histories beside the phase plane collapsed in the width of a notebook, and the legend was cut off."""
+    response = seisblock.solve_rock(seisblock.Block(0.45, 1.8), seisblock.motion_of(seisblock.read("synthetic_jma.csv"), "NS"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert "data:image/" in response._repr_html_()
 
 
 def test_plot_returns_figure_with_png_repr(response):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import re
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,10 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from seisblock.core.errors import OutputError
 from seisblock.output.figures.curves import decimate
+from seisblock.output.figures.fit_size import fit_figure_size
+from seisblock.output.figures.style import INCH, StyledFigure
 
 MAX_POINTS = 1600
 """Points of an embedded curve, at most: two per pixel of the widest screen."""
@@ -26,6 +30,9 @@ PICTURE_DPI = 170
 
 PICTURE_WIDTH = 6.0
 """Largest width of an embedded figure, inch."""
+
+NARROWEST = 0.6
+"""Share of its width to which a figure is narrowed without stacking its columns."""
 
 OVER_KEY = 17.0
 """Offset of the title of a panel above a legend of one row, points."""
@@ -55,6 +62,10 @@ def embed_figure(figure: Figure, caption: str) -> Picture:
     caption : str
         Plain text.
     """
+    if isinstance(figure, StyledFigure) and figure.narrow_layout is not None and NARROWEST * figure.get_figwidth() > PICTURE_WIDTH:
+        figure = figure.build_narrow(figure.narrow_layout, None)
+        with suppress(OutputError):
+            figure = fit_figure_size(figure, size=(PICTURE_WIDTH * INCH, figure.get_figheight() * INCH), dpi=int(figure.dpi))
     figure_width, height = figure.get_size_inches()
     if figure_width > PICTURE_WIDTH:
         figure.set_size_inches(PICTURE_WIDTH, height * (0.75 + 0.25 * PICTURE_WIDTH / figure_width))
