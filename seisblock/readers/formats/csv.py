@@ -31,6 +31,7 @@ from seisblock.readers.table.layout import (
     is_data_line,
     looks_like_csv,
     preamble_error,
+    without_comments,
 )
 from seisblock.readers.table.parse import parse_columns, to_si_in_place
 from seisblock.readers.table.sampling import Timestamp, parse_timestamp, sampling_interval, seconds_replacer
@@ -68,8 +69,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
     """
     lines = read_lines(blob)
     layout = find_layout(blob.name, lines)
-    # comments become empty lines, so that line numbers in messages stay those of the file
-    body = map_lines(lines[layout.body :], lambda line: line if is_data_line(line) else "")
+    body = without_comments(lines[layout.body :])
     if layout.decimal_comma:
         body = map_lines(body, lambda line: line.replace(",", "."))
     if any('"' in line for line in body[:3]):

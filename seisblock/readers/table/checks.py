@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from seisblock.readers._header import parse_number
 from seisblock.readers._header_check import qc_flag
+from seisblock.readers.lines import iter_chunks
 from seisblock.readers.table.columns import Column
 from seisblock.readers.table.headers import TIME, normalize_unit
 from seisblock.records import QCFlag
@@ -30,7 +31,7 @@ def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | 
 
     `first_line` is the number of ``lines[0]`` in the file, from 1; blank lines are skipped. A `separator` of None is any run of blanks.
     """
-    count = sum(1 for line in lines if line.strip())
+    count = sum(sum(map(bool, map(str.strip, piece))) for piece in iter_chunks(lines))
     # the prefilter avoids splitting every line of a large table
     if count < MIN_LINES or not _may_miss_points(lines, count):
         return ()
@@ -73,7 +74,7 @@ def _count_decimals(cell: str) -> int:
 def _may_miss_points(lines: Sequence[str], row_count: int) -> bool:
     """Return whether the total of points is slightly below a multiple of the rows, a cheap prefilter."""
     # with k columns of decimals each row has k points: the total falls short of a multiple by the lost ones
-    missing_count = -sum(line.count(".") for line in lines) % row_count
+    missing_count = -sum("\n".join(piece).count(".") for piece in iter_chunks(lines)) % row_count
     return 0 < missing_count <= max(1.0, MAX_MISSING_SHARE * row_count) * 8
 
 

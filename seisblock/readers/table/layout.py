@@ -11,6 +11,7 @@ from itertools import pairwise
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.io.csv_table import is_separator_line, stated_separator
 from seisblock.readers._header import parse_number
+from seisblock.readers.lines import iter_chunks, map_lines
 from seisblock.readers.table.columns import is_header_row
 from seisblock.readers.table.headers import is_clock_unit, is_unit, split_unit
 from seisblock.readers.table.sampling import parse_timestamp
@@ -218,6 +219,15 @@ def is_data_line(line: str) -> bool:
     if line[:1] in _NUMBER_STARTS:
         return True
     return bool(line.strip(" \t,;|\ufeff")) and not line.lstrip("\ufeff ").startswith("#") and not is_separator_line(line)
+
+
+def without_comments(lines: Sequence[str]) -> Sequence[str]:
+    """Return lines with comments and lines without cells made empty, so that line numbers in messages stay those of the file."""
+    starts = _NUMBER_STARTS | {""}
+    # one quick pass spares most tables a call for every line, each time that they are read
+    if all(line[:1] in starts for piece in iter_chunks(lines) for line in piece):
+        return lines
+    return map_lines(lines, lambda line: line if is_data_line(line) else "")
 
 
 def _unit_cells(line: str, separator: str | None) -> list[str]:

@@ -99,10 +99,10 @@ def _count_rows(lines: Sequence[str], width: int, separator: str | None) -> int 
     """Return the number of nonblank lines; None if lines differ in their number of separators or have more than `width` nonblank cells."""
     row_count = separators = nonempty_count = 0
     for piece in iter_chunks(lines):
-        row_count += sum(1 for line in piece if line.strip())
+        row_count += sum(map(bool, map(str.strip, piece)))
         if separator is not None:
             separators += "\n".join(piece).count(separator)
-            nonempty_count += sum(1 for line in piece if line)
+            nonempty_count += sum(map(bool, piece))
     # blank-separated tables are checked by the number of parsed columns instead
     if separator is None:
         return row_count
