@@ -190,7 +190,6 @@ UNEVEN = V1_HEAD + "".join(f"{0.01 * i:7.3f}{x:7.3f}" * 1 + ("\n" if i % 5 == 4 
         (layouts.cosmos(ROWS[0], title="Raw acceleration counts", level=0, unit=50), "raw counts .volume 0.: use volume 1 or 2"),
         (layouts.cosmos(ROWS[0], title="Velocity data"), "velocity: use the acceleration file"),
         (layouts.cosmos(ROWS[0], unit=3), "unevenly sampled pairs of time and acceleration: use volume 2"),
-        (layouts.smc(ROWS[0], title="1 UNCORRECTED ACCELEROGRAM"), "unevenly sampled accelerogram: use the corrected"),
         (layouts.smc(ROWS[0], title="3 VELOCITY"), "velocity: use the corrected accelerogram"),
         (layouts.smc(ROWS[0], title="*"), "raw counts.: use the corrected accelerogram"),
         (layouts.esm(ROWS[0], data="VELOCITY"), "header states VELOCITY: use the acceleration file"),
@@ -267,3 +266,23 @@ def test_read_cosmos_takes_an_integer_header_one_blank_short(tmp_path):
 def _read_text(folder, text):
     (folder / "whole.V2c").write_text(text)
     return read(folder / "whole.V2c")
+
+
+def test_uncorrected_smc_of_a_digital_recorder_is_read(tmp_path):
+    """It states its rate: samples are even, as in a corrected file; they were refused as uneven."""
+    path = tmp_path / "record.smc"
+    path.write_text(layouts.smc(ROWS[0], title="1 UNCORRECTED ACCELEROGRAM"))
+    record = read(path)
+    np.testing.assert_allclose(100.0 * record.component("NS").acceleration, ROWS[0], rtol=6e-5)
+    assert (record.dt, record.metadata["volume"], record.doubts) == (layouts.DT, "V1", ())
+    path.write_text(layouts.smc(ROWS[0]))
+    assert read(path).metadata["volume"] == "V2"
+
+
+def test_uncorrected_smc_of_a_film_is_refused(tmp_path):
+    """It has no rate, and pairs of time and acceleration."""
+    path = tmp_path / "record.smc"
+    text = layouts.smc(ROWS[0], title="1 UNCORRECTED ACCELEROGRAM")
+    path.write_text(text.replace(f"{1.0 / layouts.DT:15.7E}", f"{1.7e38:15.7E}", 1))
+    with pytest.raises(RecordFormatError, match="unevenly sampled accelerogram: use the corrected file"):
+        read(path)

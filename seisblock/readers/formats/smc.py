@@ -1,8 +1,8 @@
-"""SMC (U.S. Geological Survey): one corrected, evenly sampled component in cm/s^2.
+"""SMC (U.S. Geological Survey): one component in cm/s^2, corrected or uncorrected.
 
 Layout found in files: 11 lines of text, 6 of eight integers, 10 of five reals, comments that begin with ``|``, then eight samples of ten
-characters per line. Uncorrected files (pairs of time and acceleration), velocities, displacements and spectra raise an error that names
-them.
+characters per line. Uncorrected files of film records (no rate, pairs of time and acceleration), velocities, displacements and spectra
+raise an error that names them.
 """
 
 from __future__ import annotations
@@ -54,8 +54,9 @@ MISSING = 1e38
 _SAMPLE_TOLERANCE = 6e-5
 """Half a unit of the fifth digit, the printed precision of samples, relative."""
 
+_UNEVEN = N_("an uncorrected, unevenly sampled accelerogram: use the corrected file of the same record")
+
 _UNSUPPORTED = {
-    "UNCORRECTED ACCELEROGRAM": N_("an uncorrected, unevenly sampled accelerogram: use the corrected file of the same record"),
     "VELOCITY": N_("velocity: use the corrected accelerogram of the same record"),
     "DISPLACEMENT": N_("displacement: use the corrected accelerogram of the same record"),
     "RESPONSE": N_("a response spectrum: use the corrected accelerogram of the same record"),
@@ -78,7 +79,7 @@ def _is_derived(head: bytes) -> bool:
 
 
 def read_smc(blob: RawFile) -> Record:
-    """Return the component in a corrected SMC file.
+    """Return the component in an SMC file.
 
     Notes
     -----
@@ -97,7 +98,9 @@ def read_smc(blob: RawFile) -> Record:
     for index in range(TEXT + INTEGERS + REALS, first):
         if not lines[index : index + 1] or not lines[index].startswith("|"):
             raise line_error("expected one of {count} comment lines beginning with |", name, index + 1, count=integers[COMMENTS])
-    rate = float(reals[RATE])
+    rate, is_uncorrected = float(reals[RATE]), "UNCORRECTED" in lines[0].upper()
+    if is_uncorrected and rate >= MISSING:
+        raise RecordFormatError("{name}: the SMC file contains {what}", name=name, what=lazy_gettext(_UNEVEN))
     if not 0.0 < rate < MISSING:
         message = "expected the number of samples per second, found {rate:g}: samples may be uneven"
         raise line_error(message, name, TEXT + INTEGERS + 1, rate=rate)
@@ -109,12 +112,12 @@ def read_smc(blob: RawFile) -> Record:
     direction, direction_name = _parse_direction(lines, integers, missing_value)
     component, history = make_component(direction, to_si(gal, "gal"), direction_name)
     code, start = _station_code(lines, integers, missing_value), _start_time(integers, missing_value)
-    metadata, flags = _metadata(lines, reals), _qc_flags(direction.code, reals, gal)
+    metadata, flags = _metadata(lines, reals, is_uncorrected=is_uncorrected), _qc_flags(direction.code, reals, gal)
     return Record((component,), 1.0 / rate, code, start, source=name, format=FORMAT.name, history=history, metadata=metadata, doubts=flags)
 
 
 def _check_title(name: str, title: str) -> None:
-    """Raise unless the title is that of a corrected accelerogram."""
+    """Raise unless the title is that of an accelerogram."""
     match = _TITLE_LINE.match(title.encode("latin-1", "replace") + b"\n")
     kind = match[1].decode("latin-1").upper() if match else "*"
     reason = next((reason_text for word, reason_text in _UNSUPPORTED.items() if kind.startswith(word)), None)
@@ -147,7 +150,7 @@ def _start_time(integers: list[int], missing_value: int) -> datetime | None:
     return start + timedelta(days=day - 1) if start is not None and 1 <= day <= 366 else None
 
 
-def _metadata(lines: list[str], reals: FloatArray) -> dict[str, object]:
+def _metadata(lines: list[str], reals: FloatArray, *, is_uncorrected: bool) -> dict[str, object]:
     origin, event = None, re.match(r"\s*(\d{4})\s+(\d{1,2})\s+(\d{1,2})\s+(\d{2})(\d{2})\s*(.*)", lines[3])
     if event:
         year, month, day, hour, minute = (int(part) for part in event.groups()[:5])
@@ -155,6 +158,7 @@ def _metadata(lines: list[str], reals: FloatArray) -> dict[str, object]:
     return drop_missing(
         {
             "unit": "gal",
+            "volume": "V1" if is_uncorrected else "V2",
             "station_name": search_group(r"station\s*=\s*(.*?)\s*(?:component\b|\Z)", lines[5]).rstrip(", "),
             "origin_time": origin,
             "event_name": event[6].strip() if event else "",
