@@ -2,6 +2,7 @@
 
 import asyncio
 import functools
+import gc
 import json
 import os
 import re
@@ -21,10 +22,10 @@ from seisblock.app import server, uploads, views
 from seisblock.app.jobs import Job, JobState
 from seisblock.cli import app as command
 from seisblock.cli import main
-from seisblock.core.errors import ParameterError
+from seisblock.core.errors import OutputError, ParameterError
 from seisblock.core.i18n import use_locale
 from seisblock.output.io.atomic import write_table
-from seisblock.output.io.workbook import convert_csv
+from seisblock.output.io.workbook import convert_csv, write_workbook
 from seisblock.samples import sample_path
 
 IDS = [
@@ -234,6 +235,16 @@ def test_workbook_holds_numbers_and_texts_of_the_table_and_no_formula(tmp_path):
     expected = ["=1+1", "墓石", "007", "1e3", "1_0", "'=像", "ab", 12, "nan"]
     assert values == [["body", "share"], ["=1+1", 0.25], *([name, None] for name in expected[1:])]
     assert sheet["A2"].data_type == "s"
+
+
+def test_workbook_that_cannot_be_written_is_one_error(tmp_path, monkeypatch):
+    """In a folder without permission, errors of lxml followed the sentence on the terminal."""
+    ignored = []
+    monkeypatch.setattr(sys, "unraisablehook", ignored.append)
+    with pytest.raises(OutputError):
+        write_workbook(tmp_path / "missing" / "table.xlsx", ["body", "share"], [["a", 0.25], ["b", None]])
+    gc.collect()
+    assert ignored == []
 
 
 @pytest.mark.slow

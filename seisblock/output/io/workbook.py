@@ -44,29 +44,30 @@ def write_workbook(path: Path | str, header: Sequence[str], rows: Iterable[Seque
     from openpyxl.utils import get_column_letter
 
     check_workbook(path)
-    book = openpyxl.Workbook(write_only=True)
-    sheet = book.create_sheet()
-    table = [header, *rows]
-    # a sheet that is written row by row takes these first
-    for column, values in enumerate(zip(*table, strict=True), start=1):
-        width = max(_width(value) for value in values if isinstance(value, str))
-        sheet.column_dimensions[get_column_letter(column)].width = min(width, MAX_COLUMN_WIDTH) + 2
-    sheet.freeze_panes = "B2"
-    # each value is written before the cell takes the next one
-    heading, cell = WriteOnlyCell(sheet), WriteOnlyCell(sheet)
-    heading.font = Font(bold=True)
-    heading.alignment = cell.alignment = Alignment(wrap_text=True, vertical="top")
-
-    def cells(row: Sequence[Any], cell: Any) -> Iterator[Any]:
-        for value in row:
-            cell.value = ILLEGAL_CHARACTERS_RE.sub("", value) if isinstance(value, str) else value
-            if isinstance(value, str):
-                cell.data_type = "s"  # without the type, a text that begins with = would be a formula
-            yield cell
-
-    for line, row in enumerate(table):
-        sheet.append(cells(row, cell if line else heading))
+    # a sheet that is begun and not saved ends in errors of lxml
     with atomic_write(path) as temporary:
+        book = openpyxl.Workbook(write_only=True)
+        sheet = book.create_sheet()
+        table = [header, *rows]
+        # a sheet that is written row by row takes these first
+        for column, values in enumerate(zip(*table, strict=True), start=1):
+            width = max(_width(value) for value in values if isinstance(value, str))
+            sheet.column_dimensions[get_column_letter(column)].width = min(width, MAX_COLUMN_WIDTH) + 2
+        sheet.freeze_panes = "B2"
+        # each value is written before the cell takes the next one
+        heading, cell = WriteOnlyCell(sheet), WriteOnlyCell(sheet)
+        heading.font = Font(bold=True)
+        heading.alignment = cell.alignment = Alignment(wrap_text=True, vertical="top")
+
+        def cells(row: Sequence[Any], cell: Any) -> Iterator[Any]:
+            for value in row:
+                cell.value = ILLEGAL_CHARACTERS_RE.sub("", value) if isinstance(value, str) else value
+                if isinstance(value, str):
+                    cell.data_type = "s"  # without the type, a text that begins with = would be a formula
+                yield cell
+
+        for line, row in enumerate(table):
+            sheet.append(cells(row, cell if line else heading))
         book.save(temporary)
 
 
