@@ -41,7 +41,7 @@ def solid_model(body: ConvexBody, mu: float, timestep: float) -> Any:
 
 def overturning_barrier(body: ConvexBody) -> tuple[float, float]:
     """Return the least energy that lifts a body at rest over an edge of its base, J, and its tilt there, rad."""
-    polygon, height = body.support_polygon - np.array(body.centre[:2]), body.centre[2]
+    polygon, height = body.support_polygon - np.array(body.centre[:2]), body.centre[2] - body.points[:, 2].min()
     along = np.roll(polygon, -1, axis=0) - polygon
     distances = np.abs(along[:, 0] * polygon[:, 1] - along[:, 1] * polygon[:, 0]) / np.hypot(*along.T)
     nearest = float(distances.min())
