@@ -21,12 +21,11 @@ from seisblock.core.results import Channel, Histories, Response, Status
 from seisblock.core.typing import FloatArray
 from seisblock.dynamics.cancellation import check_cancelled, count_samples, report_progress
 from seisblock.models.rigid3d import buffers
-from seisblock.models.rigid3d.buffers import RigidHull, Workspace, X, make_workspace
+from seisblock.models.rigid3d.buffers import RigidHull, V, W, Workspace, X, make_workspace
 from seisblock.models.rigid3d.options import Rigid3dOptions
 from seisblock.models.rigid3d.outcome import Rigid3dOutcome, build_outcome
 from seisblock.models.rigid3d.params import initial_state, return_barrier, rigid_body
 from seisblock.models.rigid3d.run import run_rigid3d, start_run
-from seisblock.models.rigid3d.step import mechanical_energy
 from seisblock.records._validation import validate_inputs, validate_motion, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
@@ -182,8 +181,10 @@ def _cannot_return(constants: RigidHull, scratch: Workspace, lowest: float, barr
     The energy above the lowest position, E = m u^2/2, is no less than the kinetic one. Contacts only dissipate, so that
     dE/dt <= -m a . v <= m |a| u, and u grows by no more than the integral of |a| (derived here).
     """
-    gravity, mass = constants.constants[buffers.GRAVITY], constants.constants[buffers.MASS]
-    energy = mechanical_energy(scratch.state, constants) / mass - gravity * lowest
+    gravity, mass = constants.constants[[buffers.GRAVITY, buffers.MASS]].tolist()
+    velocity, spin = scratch.state[V : V + 3], scratch.state[W : W + 3]
+    kinetic = 0.5 * (velocity @ velocity + spin @ constants.inertia.reshape(3, 3) @ spin / mass)
+    energy = float(kinetic + gravity * (scratch.state[X + 2] - lowest))
     return math.sqrt(2.0 * max(energy, 0.0)) + speed < math.sqrt(2.0 * gravity * max(barrier - lowest, 0.0))
 
 
