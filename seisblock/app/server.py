@@ -145,7 +145,8 @@ def create_app(folder: Path, locale: str | None = None) -> Starlette:
                 try:
                     response: Response = await handler(request, tab)
                 except SeisblockError as error:
-                    response = _error_response(gettext(error.message))
+                    # files are named as the user named them, without the temporary folder
+                    response = _error_response(gettext(error.message).replace(f"{tab.files}{os.sep}", ""))
                 except UploadTooLargeError:
                     response = _error_response(gettext(TOO_LARGE), 413, tab)
                 except HTTPException as error:

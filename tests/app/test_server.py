@@ -338,6 +338,12 @@ def test_long_japanese_name_is_shortened_to_what_file_systems_take(client, lines
     assert response.status_code == 200 and len(lines[0][1].encode()) <= uploads.MAX_NAME_BYTES and lines[0][1].endswith("記.csv")
 
 
+def test_error_of_a_sheet_names_the_file_without_the_temporary_folder(client, tmp_path, lines):
+    """The error of an empty sheet began with the path of the folder of uploads."""
+    text = upload(client, tab_address(client), "survey", ("墓石.csv", b"")).text
+    assert 'data-testid="error"' in text and "墓石.csv" in text and str(tmp_path) not in text
+
+
 def test_survey_under_the_record_of_the_first_tab_requires_one(client, lines):
     address = tab_address(client)
     client.post(address + "/record", data={"source": "intensity", "intensity": "6+"})
