@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, NamedTuple, TypeAlias
+from typing import Any, Final, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -89,6 +89,10 @@ class Motion(PlotMixin):
         checks.positive("the sampling interval", self.dt, "s")
         if not all(np.isfinite(row).all() for row in arrays):
             raise ParameterError("accelerations of a motion must be finite")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy and pickle by the constructor: arrays that a copy restores are writable, which no kernel accepts."""
+        return Motion, (self.rows, self.dt, self.name, self.start_s, self.record)
 
     @classmethod
     def from_arrays(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 from seisblock.core.arrays import readonly
 from seisblock.core.errors import ComponentError
@@ -49,10 +50,12 @@ def azimuth_projection(pair: tuple[Component, Component], azimuth_deg: float) ->
     if abs(span) < 1e-6:
         raise ComponentError("the two horizontal components are parallel and cannot be rotated")
 
-    def project(part: slice) -> FloatArray:
-        # north and east accelerations solved from the two components, then projected on the azimuth
-        acceleration = component_1.acceleration[part] * (math.sin(b - t) / span)
-        acceleration += component_2.acceleration[part] * (math.sin(t - a) / span)
-        return readonly(acceleration)
+    weights = math.sin(b - t) / span, math.sin(t - a) / span
+    return partial(_weighted_sum, component_1.acceleration, component_2.acceleration, weights)
 
-    return project
+
+def _weighted_sum(first: FloatArray, second: FloatArray, weights: tuple[float, float], part: slice) -> FloatArray:
+    """Return a slice of the weighted sum of two rows; the weights are north and east of both, projected on an azimuth."""
+    total = first[part] * weights[0]
+    total += second[part] * weights[1]
+    return readonly(total)

@@ -1,6 +1,8 @@
 """Records made of arrays, and documents made of responses, without a file or a command."""
 
+import copy
 import json
+import pickle
 from datetime import UTC, datetime
 
 import numpy as np
@@ -9,6 +11,7 @@ from click.testing import CliRunner
 
 import seisblock as sb
 from seisblock.cli import main
+from seisblock.records.motion import LONG_MOTION_SAMPLES
 
 SINE = 4.0 * np.sin(2.0 * np.pi * np.arange(301) * 0.01)
 
@@ -23,6 +26,19 @@ def test_record_from_arrays_holds_components_azimuths_and_start():
     assert record.vertical is record.components[2]
     assert (record.station, record.dt, record.start) == ("table", 0.01, datetime(2026, 1, 2, tzinfo=UTC))
     assert np.array_equal(sb.motion_of(record, "NS").vertical, 0.1 * SINE)
+
+
+@pytest.mark.parametrize("clone", [lambda motion: pickle.loads(pickle.dumps(motion)), copy.copy, copy.deepcopy])
+@pytest.mark.parametrize("samples", [301, LONG_MOTION_SAMPLES + 1], ids=["short", "long"])
+def test_motion_from_another_process_or_copy_gives_equal_response(clone, samples):
+    """Also one with a row across that is computed on demand."""
+    values = 4.0 * np.sin(0.06 * np.arange(samples)) * np.exp(-((np.arange(samples) - 150.0) ** 2) / 1e4)
+    record = sb.Record.from_arrays({"30": values, "100": 0.5 * values, "UD": 0.1 * values}, dt=0.01)
+    motion = sb.motion_of(record, "70")
+    copied = clone(motion)
+    assert not copied.horizontal.flags.writeable
+    assert np.array_equal(copied.transverse, motion.transverse)
+    assert sb.solve_rock(sb.Block(0.2, 0.9), copied).outcome == sb.solve_rock(sb.Block(0.2, 0.9), motion).outcome
 
 
 @pytest.mark.parametrize(

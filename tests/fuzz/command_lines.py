@@ -43,6 +43,7 @@ FITTING: dict[str, Sequence[str]] = {
     "component": ("NS", "EW", "UD", "all", "37", "NS,EW", "400", "-20"),
     "scale": ("1", "3", "-1", "0"),
     "target_pga": ("700", "100"),
+    "jma": ("6+", "5弱", "4.2", "9", "x"),
     "target_jma": ("6+", "5弱", "4.2", "9", "x"),
     "window": ("0.2:1", ":1", "0.5:", "0.3:0.31", "5:9"),
     "floor": ("T=0.6", "T=0.3,zeta=0.1,height=1", "T=0.001", "T=0", "height=0.5", "T=5,zeta=1e-9"),
@@ -137,12 +138,16 @@ ALWAYS = {
     "fragility": ["--steps", "3", "--bootstrap", "20"],
     "stack": ["--contact", "edges", "--grid", "13"],
     "spectrum": ["--steps", "3"],
+    "rigid3d": ["--runs", "2"],
 }
 """Words that keep a command short, unless the dice say otherwise later on the line."""
 
 COMMONLY = {
     "rock": ["--block", "gravestone"],
     "respond": ["--block", "gravestone"],
+    "rigid3d": ["--block", "gravestone", "--mu", "0.5"],
+    "scenario": ["--bodies", "list.csv", "--mu", "0.5"],
+    "secure": ["--width", "0.3", "--height", "0.9", "--mu", "0.5"],
     "slide": ["--mu", "0.2"],
     "uplift": ["--width", "1", "--height", "3", "--frequency-vertical", "8"],
     "criteria": ["--block", "gravestone"],
@@ -160,7 +165,7 @@ COMMONLY = {
 ELSEWHERE = {"cluster"}
 """Options whose strange values would be looked for in the network."""
 
-SLOW = {"validate", "report", "fit"}
+SLOW = {"validate", "report", "fit", "secure"}
 """Commands that take a second or more, drawn rarely."""
 
 

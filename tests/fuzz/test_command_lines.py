@@ -22,7 +22,7 @@ SLOWEST_S = 10.0
 """Processor time, so that a busy machine does not count; a report, which draws a dozen figures, and a study of a pile, which runs for each
 height and frequency, take some seconds themselves."""
 
-LONGER_S = {"report": 40.0, "stack": 60.0, "fit": 40.0}
+LONGER_S = {"report": 40.0, "stack": 60.0, "fit": 40.0, "secure": 60.0, "scenario": 30.0}
 CODES = {0, 2, 3, 4}
 """Answered; click's; bad input; a solver that gave up (DESIGN: errors)."""
 
