@@ -43,15 +43,11 @@ def shift(c, degree, t):
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64), inline=True)
 def lower_bound(c, degree, h):
-    """Return a lower bound of a polynomial on [0, h]: the lower end of its linear part minus the absolute higher terms."""
-    if degree == 0:
-        return c[0]
-    # the linear part attains its minimum at an end of the interval
-    bound = min(c[0], c[0] + c[1] * h)
-    power = h
-    for k in range(2, degree + 1):
+    """Return a lower bound of a polynomial on [0, h]: its first coefficient and all negative terms at `h`."""
+    bound, power = c[0], 1.0
+    for k in range(1, degree + 1):
         power *= h
-        bound -= abs(c[k]) * power
+        bound += min(c[k], 0.0) * power
     return bound
 
 
@@ -70,16 +66,23 @@ def evaluate_row(c, i, degree, t):
 @kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def lower_bound_of_row(c, i, degree, h):
     """Return :func:`lower_bound` of the polynomial in row `i`."""
-    if degree == 0:
-        return c[i, 0]
-    bound = min(c[i, 0], c[i, 0] + c[i, 1] * h)
     if degree == 3:
-        return bound - h * h * (abs(c[i, 2]) + h * abs(c[i, 3]))
-    power = h
-    for k in range(2, degree + 1):
+        return c[i, 0] + h * (min(c[i, 1], 0.0) + h * (min(c[i, 2], 0.0) + h * min(c[i, 3], 0.0)))
+    bound, power = c[i, 0], 1.0
+    for k in range(1, degree + 1):
         power *= h
-        bound -= abs(c[i, k]) * power
+        bound += min(c[i, k], 0.0) * power
     return bound
+
+
+@kernel(_t.boolean(VECTOR, _t.int64, _t.float64), inline=True)
+def _is_concave(c, degree, h):
+    """Return True if the second derivative of a polynomial is negative on [0, h], by its first coefficient and all positive terms."""
+    bound, power = 2.0 * c[2] if degree > 1 else 0.0, 1.0
+    for k in range(3, degree + 1):
+        power *= h
+        bound += k * (k - 1) * max(c[k], 0.0) * power
+    return bound < 0.0
 
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64))
@@ -98,7 +101,8 @@ def bracketed_root(c, degree, high):
         # without a real root of the quadratic part, the end of the bracket is the first guess
         discriminant = c[1] * c[1] - 4.0 * c[0] * c[2]
         if discriminant >= 0.0:
-            guess = 2.0 * c[0] / (np.sqrt(discriminant) - c[1])
+            root = np.sqrt(discriminant)
+            guess = 2.0 * c[0] / (root - c[1]) if c[1] <= 0.0 else -0.5 * (c[1] + root) / c[2]
             if 0.0 < guess < high:
                 t = guess
     for _ in range(100):
@@ -183,12 +187,12 @@ def first_negative(g, degree, h, round_off, q, d):
     smallest = 1e-14 * h
     while start < h:
         if lower_bound(q, n, width) <= -noise:
-            # the derivative does not change sign: at most one root, so that the end value decides
+            # falling, or above zero and concave as a hop: at most one root, so that the end value decides
             for k in range(n):
                 # minus the derivative: if it is bounded from below by zero, the guard only falls
                 d[k] = -(k + 1) * q[k + 1]
             monotone = n > 0 and lower_bound(d, n - 1, width) >= 0.0
-            if not monotone and width > smallest:
+            if not monotone and not (q[0] > 0.0 and _is_concave(q, n, width)) and width > smallest:
                 width *= 0.5
                 continue
             if evaluate(q, n, width) < -noise:

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seisblock.dynamics.polynomial import NO_CROSSING, evaluate, first_crossing, shift
+from seisblock.dynamics.polynomial import NO_CROSSING, evaluate, first_crossing, first_negative, lower_bound, shift
 
 pytestmark = pytest.mark.kernel
 
@@ -59,6 +59,21 @@ def test_crossing_at_the_very_end_is_inside():
     """The step's end belongs to the step, but only what goes below zero fires."""
     assert crossing([1.0, -1.0 - 1e-9]) == pytest.approx(1.0, abs=2e-9)
     assert crossing([1.0, -1.0]) == NO_CROSSING
+
+
+@pytest.mark.parametrize("velocity", [1e-12, 1e-8, 1e-4, 0.1])
+@pytest.mark.parametrize("height", [0.0, 1e-6, 10.0])
+def test_end_of_hop_much_shorter_than_step_is_found_to_round_off(velocity, height):
+    """A hop rises, falls and ends in a small part of the step; its height at the start is in units of velocity squared."""
+    g = np.array([height * velocity**2, velocity, -0.5, 0.0])
+    end = first_negative(g, 3, 1.0, 0.0, np.zeros(4), np.zeros(4))
+    assert end == pytest.approx(velocity * (1.0 + np.sqrt(1.0 + 2.0 * height)), rel=1e-14)
+
+
+def test_rising_guard_never_fires():
+    """A guard without negative terms stays positive, however small it begins."""
+    assert crossing([1e-20, 1.0, 5.0, 3.0]) == NO_CROSSING
+    assert lower_bound(np.array([1e-20, 1.0, 5.0, 3.0]), 3, 1.0) > 0.0
 
 
 def test_zero_polynomial_never_fires():
