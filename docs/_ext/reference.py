@@ -161,7 +161,7 @@ def options(_: str) -> str:
         for keyword, described, field in option_fields(kind):
             default = "required" if field.default is MISSING else f"`{field.default!r}`"
             flag = f"`{described.flag}`" if described.flag else ""
-            cells = (plain(described.unit), plain(described.interval), default, plain(plain_help(described)))
+            cells = (plain(described.unit), plain(described.interval), default, plain(plain_help(described.help)))
             parts.append(f"| `{keyword}` | {flag} | `{document_key(keyword, described)}` | {' | '.join(cells)} |")
         parts.append("")
     return "\n".join(parts)

@@ -184,7 +184,7 @@ def test_uplift_writes_harmonic_curves_as_csv(run, tmp_path):
         (("--width", 1, "--height", 2, "--frequency-vertical", 5, "--damping", "0.1,0.2"), "accepts one number with a record", 3),
         (("--width", 1, "--height", 2, "--frequency-vertical", 5, "--rho", 90), "requires --harmonic", 3),
         (("--harmonic", "--rho", "steep"), "is not a number", 2),
-        (("--harmonic", "--phi", "nan"), "is not a number", 2),
+        (("--harmonic", "--phi", "nan"), "must be a finite number", 2),
         (("--harmonic", "--alpha", 0), "alpha, height over depth, must be positive", 3),
         (("--harmonic", "--damping", 1.5), "damping ratio must lie in [0, 1)", 3),
         (("--harmonic", "--alpha", 2, "--width", 1, "--height", 2), "give sizes or ratios, not both", 3),

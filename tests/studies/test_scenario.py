@@ -10,7 +10,7 @@ from scipy.optimize import linprog
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.body_name import TRANSLATED_NAMES
-from seisblock.bodies.friction import SURFACES
+from seisblock.bodies.friction import MATERIALS, SURFACES
 from seisblock.bodies.kinds import KINDS, normalize_kind
 from seisblock.bodies.table import BodySpec, read_bodies, read_body_list
 from seisblock.bodies.toml import bundled_bodies
@@ -27,7 +27,7 @@ from seisblock.records import Motion, Preparation, Storey, motion_of, scale, sca
 from seisblock.report.figures.secure import figure as secure_figure
 from seisblock.report.text.scenario import csv_columns, object_name
 from seisblock.report.text.scenario import tables as scenario_tables
-from seisblock.report.text.secure import MATERIALS, measure_note, verdict
+from seisblock.report.text.secure import measure_note, verdict
 from seisblock.studies.assessment import classify
 from seisblock.studies.fragility.run import run_fragility
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
