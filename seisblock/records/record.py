@@ -11,7 +11,7 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin, PlotMixin
-from seisblock.core.arrays import as_readonly
+from seisblock.core.arrays import as_readonly, readonly
 from seisblock.core.backends import backend
 from seisblock.core.errors import ComponentError, KindError, RecordError
 from seisblock.core.i18n import lazy_gettext
@@ -55,6 +55,11 @@ class Component(DisplayMixin):
             )
         if self.azimuth_deg is None and self.code in HORIZONTAL_AZIMUTHS:
             object.__setattr__(self, "azimuth_deg", HORIZONTAL_AZIMUTHS[self.code])
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Restore a pickled or copied component; the samples stay read-only."""
+        self.__dict__.update(state)
+        readonly(self.acceleration)
 
     @property
     def is_vertical(self) -> bool:

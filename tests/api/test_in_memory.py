@@ -28,7 +28,18 @@ def test_record_from_arrays_holds_components_azimuths_and_start():
     assert np.array_equal(sb.motion_of(record, "NS").vertical, 0.1 * SINE)
 
 
-@pytest.mark.parametrize("clone", [lambda motion: pickle.loads(pickle.dumps(motion)), copy.copy, copy.deepcopy])
+CLONES = [lambda original: pickle.loads(pickle.dumps(original)), copy.copy, copy.deepcopy]
+
+
+@pytest.mark.parametrize("clone", CLONES)
+def test_samples_of_a_pickled_or_copied_record_are_read_only(clone):
+    """As those of the record itself."""
+    copied = clone(sb.Record.from_arrays({"NS": SINE}, dt=0.01))
+    assert not copied.components[0].acceleration.flags.writeable
+    assert np.array_equal(copied.components[0].acceleration, SINE)
+
+
+@pytest.mark.parametrize("clone", CLONES)
 @pytest.mark.parametrize("samples", [301, LONG_MOTION_SAMPLES + 1], ids=["short", "long"])
 def test_motion_from_another_process_or_copy_gives_equal_response(clone, samples):
     """Also one with a row across that is computed on demand."""
