@@ -17,7 +17,7 @@ from seisblock.dynamics.array_types import MATRIX, VECTOR
 from seisblock.dynamics.buffers import SCRATCH
 from seisblock.dynamics.model_api import SERIES
 from seisblock.models.uplift.constants import ALL_CORNERS, GRAVITY, N_STATES, PROPAGATORS, SETTLEMENT, STEP, TURN_X
-from seisblock.models.uplift.series import evaluate
+from seisblock.models.uplift.series import evaluate, z_datum
 
 _t = types()
 
@@ -91,10 +91,9 @@ def fill_propagators(series, parameters, scratch, y, end):
                 evaluate(c, MAX_DEGREE, step, end)
                 for i in range(N_ROWS):
                     p[constant + N_ROWS * (k + 1) + i] = end[TURN_X + i]
-            # gravity and the static settlement, which cancel with all corners in contact
-            for i in range(N_ROWS):
-                at, above = constant + i, settlement if i == HEIGHT else 0.0
-                p[at] = above + gravity * p[at + N_ROWS * (LOAD_UP + 1)] - settlement * p[at + N_ROWS * (HEIGHT + 1)]
-                if closed == ALL_CORNERS:
-                    p[at] = 0.0
         p[GRAVITY], p[SETTLEMENT] = gravity, settlement
+        for closed in range(ALL_CORNERS + 1):
+            constant, (datum, weight) = PROPAGATORS + closed * SIZE, z_datum(p, closed)
+            for i in range(N_ROWS):
+                at, above = constant + i, datum if i == HEIGHT else 0.0
+                p[at] = above + weight * p[at + N_ROWS * (LOAD_UP + 1)] - datum * p[at + N_ROWS * (HEIGHT + 1)]
