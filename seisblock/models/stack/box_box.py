@@ -52,6 +52,12 @@ def smaller_half_length(c, p, boxes):
     return min(max(boxes[c, 0], max(boxes[c, 1], boxes[c, 2])), max(boxes[p, 0], max(boxes[p, 1], boxes[p, 2])))
 
 
+@kernel(_t.float64(_t.int64, _t.int64, MATRIX), inline=True)
+def contact_margin(c, p, boxes):
+    """Return the contact margin of two stones, m."""
+    return MARGIN_RATIO * smaller_half_length(c, p, boxes)
+
+
 @kernel(_t.void(_t.float64, _t.float64, _t.float64, _t.int64, VECTOR), inline=True)
 def _set_axis(x, y, z, kind, axis):
     axis[0] = x

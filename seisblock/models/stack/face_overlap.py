@@ -10,7 +10,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import BLOCK, MATRIX, VECTOR
-from seisblock.models.stack.box_box import MARGIN_RATIO, smaller_half_length
+from seisblock.models.stack.box_box import contact_margin
 from seisblock.models.stack.buffers import FACE_OVERLAP_KERNEL
 from seisblock.models.stack.cylinder import RADIUS, lowest_rim_point
 from seisblock.models.stack.spring_contact import REL_D
@@ -269,7 +269,7 @@ def face_overlap_points(c, p, rel, corners, boxes, rims, axis, work, points):
     _outline(p, 1 if side > 0.0 else 0, corners, boxes, rims, lower_face)
     _outline(c, 1 if upper_side > 0.0 else 0, corners, boxes, rims, upper_face)
     lower_face[MERGE] = MERGE_RATIO * min(_smallest_half_side(lower_face), _smallest_half_side(upper_face))
-    lower_face[MARGIN] = upper_face[MARGIN] = MARGIN_RATIO * smaller_half_length(c, p, boxes)
+    lower_face[MARGIN] = upper_face[MARGIN] = contact_margin(c, p, boxes)
     gap = _face_gap(side, rel, lower_face, upper_face)
     for i in range(3):
         for j in range(3):

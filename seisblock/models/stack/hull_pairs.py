@@ -6,15 +6,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import MATRIX, VECTOR
-from seisblock.models.stack.box_box import (
-    FACE_AXIS,
-    MARGIN_RATIO,
-    MAX_POINTS,
-    edge_edge,
-    face_manifold,
-    separating_axis,
-    smaller_half_length,
-)
+from seisblock.models.stack.box_box import FACE_AXIS, MAX_POINTS, contact_margin, edge_edge, face_manifold, separating_axis
 from seisblock.models.stack.buffers import LAYOUT
 from seisblock.models.stack.chamfered_faces import MAX_CHAMFERED_POINTS
 
@@ -44,7 +36,7 @@ def max_contact_points(c, p, pile):
 @kernel(_t.float64(VECTOR, _t.int64, _t.int64, _t.float64, LAYOUT, MATRIX, VECTOR), inline=True)
 def gap_between(rel, c, p, cutoff, pile, work, axis):
     """Return the widest gap between carrier and partner and write its axis: see :func:`separating_axis`."""
-    margin = MARGIN_RATIO * smaller_half_length(c, p, pile.boxes)
+    margin = contact_margin(c, p, pile.boxes)
     if _both_sharp(c, p, pile):
         return separating_axis(rel, pile.cores[c], pile.cores[p], cutoff, margin, axis)
     return pile.shapes.separating_axis(rel, c, p, cutoff, margin, pile.corners, pile.counts, work[HULL_SCRATCH:], axis)
@@ -53,7 +45,7 @@ def gap_between(rel, c, p, cutoff, pile, work, axis):
 @kernel(_t.boolean(VECTOR, _t.int64, _t.int64, LAYOUT, VECTOR, MATRIX, VECTOR), inline=True)
 def edges_cross(rel, c, p, pile, axis, work, y):
     """Write the nearest points of the two edges of an edge-edge axis and return whether they cross: see :func:`edge_edge`."""
-    margin = MARGIN_RATIO * smaller_half_length(c, p, pile.boxes)
+    margin = contact_margin(c, p, pile.boxes)
     if _both_sharp(c, p, pile):
         return edge_edge(rel, pile.cores[c], pile.cores[p], margin, axis, y)
     return pile.shapes.edge_edge(rel, c, p, margin, pile.corners, pile.counts, axis, work[FACE_SCRATCH:], y)
@@ -62,7 +54,7 @@ def edges_cross(rel, c, p, pile, axis, work, y):
 @kernel(_t.int64(VECTOR, _t.int64, _t.int64, LAYOUT, VECTOR, MATRIX, _t.float64, MATRIX, MATRIX), inline=True)
 def faces_overlap(rel, c, p, pile, axis, work, max_gap, points, buffer):
     """Write the contact manifold of two faces and return its number of points: see :func:`face_manifold`."""
-    margin = MARGIN_RATIO * smaller_half_length(c, p, pile.boxes)
+    margin = contact_margin(c, p, pile.boxes)
     if _both_sharp(c, p, pile):
         return face_manifold(rel, pile.cores[c], pile.cores[p], margin, axis[FACE_AXIS:], work[1], points, buffer)
     face, scratch = axis[FACE_AXIS:], work[FACE_SCRATCH:]
